@@ -67,7 +67,7 @@ def viewing_ray(i, j, width, height, camera):
 PICTURES = (
     Picture("window"),
     Picture("outside", "Outside view"),
-    Picture("compare", "Compare", "spheres"),
+    Picture("compare", "Compare", "spheres", options={"compare": {"mode": "wipe"}}),
     Picture("probe", "Probe", "primitives", (1600, 900), {"marked": (190, 150)}),
     Picture("loops", "Loops", "still-life", (1600, 900), {"stepper": {"steps": (1010, 4720)}}),
     Picture("your-code", layout.LOOPS, size=(1600, 900), code=WRONG),

@@ -10,21 +10,31 @@ import sys
 
 import pytest
 from hypothesis import settings
+from xdist.scheduler import LoadScopeScheduling
 
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.raster import Rasterizer
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.trace import Tracer
+from lucida.renderer.trace.precompile import precompile
+from lucida.renderer.trace.tiles.variants import Variant
+from tests.support.browser import chromium
 
-settings.register_profile("lucida", deadline=None, derandomize=bool(os.environ.get("CI")))
+# make test repeats itself; `make attack ARGS=properties` takes other examples each time.
+settings.register_profile("lucida", deadline=None, derandomize=True)
+settings.register_profile("attack", deadline=None, max_examples=400, print_blob=True)
 settings.load_profile("lucida")
 
 
 def pytest_sessionstart(session):
-    """Into the cache, at once: or the first test that traces would wait for it, and hear of it. Not
+    """Compile the tracer into the cache: or the first test that traces would wait for it, and hear
+    of it. Before several processes begin, all of it: or each of them would compile the same. Not
     where a few tests run on their own, for another processor."""
     if not hasattr(session.config, "workerinput") and "NUMBA_CPU_NAME" not in os.environ:
+        if session.config.getoption("numprocesses", None):
+            of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
+            precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
         scene = load_scene(BUILTIN_SCENES[0])
         for shadows in (False, True):
             with Tracer(scene, shadows=shadows) as tracer:
@@ -36,7 +46,19 @@ def pytest_xdist_auto_num_workers():
     return (os.cpu_count() or 1) + 2
 
 
-LONGEST = ("test_window", "test_desk", "test_isolation", "test_trace_cache")
+LONGEST = ("test_window", "test_desk", "test_scene_page")
+PAGES = ("/app/web/", "/test_widget_page.py")
+
+
+class Scheduling(LoadScopeScheduling):
+    """One process gets a file or a class whole, and all pages, so that they share a browser."""
+
+    def _split_scope(self, nodeid):
+        return "pages" if any(part in nodeid for part in PAGES) else super()._split_scope(nodeid)
+
+
+def pytest_xdist_make_scheduler(config, log):
+    return Scheduling(config, log)
 
 
 def pytest_collection_modifyitems(items):
@@ -77,6 +99,13 @@ def gl(rasterizer):
     """The rasterizer's context, current."""
     with rasterizer.current() as context:
         yield context
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Chromium, for all pages."""
+    with chromium() as found:
+        yield found
 
 
 @pytest.fixture(scope="session")

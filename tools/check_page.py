@@ -2,8 +2,7 @@
 
     lucida lecture --export lecture.html && python -m tools.check_page lecture.html
 
-Needs `npm --prefix tests/app/web install`. Prints a line for each problem; the exit status is 1 if
-there was any.
+Prints a line for each problem; the exit status is 1 if there was any.
 """
 
 from __future__ import annotations
@@ -13,9 +12,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from tests.support.browser import chromium
+from tests.support.browser import axe_script, chromium
 
-AXE = Path(__file__).parents[1] / "tests/app/web/node_modules/axe-core/axe.min.js"
 THEMES = ("dark", "light", "contrast")
 SIZES = ((1280, 720), (1920, 1080), (360, 740), (320, 180))  # the last: 1280x720 at 400 %
 STARTS_MS = 400  # until a figure is there
@@ -93,7 +91,7 @@ def _go(tab: Any, number: str) -> None:
 
 def _axe(tab: Any, numbers: Sequence[str]) -> Iterator[str]:
     """Yield what axe finds, in every theme, as a step begins, and answered."""
-    tab.evaluate(AXE.read_text())
+    tab.evaluate(axe_script())
     for number in numbers:
         _go(tab, number)
         for theme in THEMES:

@@ -27,11 +27,11 @@ class Kind:
 
 
 RADIUS = """\
-r' is how far from the middle of the image something is seen, in units of `distance`.
+r' is how far from the middle of the image something is seen, in units of d.
 theta is the angle between its direction and the view axis.
 r = tan(theta) is where a pinhole sees it."""
 PANORAMA = """\
-a' and b' are how far to the right and downwards something is seen, in units of `distance`.
+a' and b' are how far to the right and downwards something is seen, in units of d.
 Longitude and latitude are the angles of its direction, in radians, from the view axis."""
 KINDS = {
     "brown": Kind(

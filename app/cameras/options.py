@@ -54,6 +54,9 @@ def lens_word(text: str) -> Lens | str:
         return text
     model, _, coefficients = text.partition(":")
     pairs = [part.partition("=") for part in coefficients.split(",") if part]
+    for name, sign, _ in pairs:
+        if not sign:
+            raise argparse.ArgumentTypeError(f"{name!r} has no value; give {name}=0.1")
     given = {name.strip(): numbers(1)(value) for name, _, value in pairs}
     if len(given) < len(pairs):
         raise argparse.ArgumentTypeError("a coefficient is given twice; give it once")

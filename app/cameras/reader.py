@@ -105,7 +105,7 @@ def _from_others(text: str, format: str, now: View) -> TakenCamera:
     if (count := len(every.cameras)) > 1:
         remedy = "save the text as a file and open that: all of them are shown"
         raise LucidaError("", f"holds {count} cameras", remedy)
-    found = one_of(every)
+    found = one_of(every.cameras)
     camera, distance = found.camera, now.camera.distance
     left, right, bottom, top = camera.viewport
     if not camera.is_parallel:

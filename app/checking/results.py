@@ -17,7 +17,7 @@ import msgspec
 from lucida.app.lecture.answer_log import KeptAnswer
 from lucida.app.web.lecture.text import plain, written
 from lucida.renderer.files.reading import read_file
-from lucida.renderer.system.errors import LucidaError, shortened
+from lucida.renderer.system.errors import LucidaError, counted, shortened
 
 LARGEST = 256 << 20  # bytes of a file
 LONGEST = 400  # characters of a text from a file
@@ -70,7 +70,7 @@ class ClassAnswer:
 def summary(answers: Sequence[ClassAnswer]) -> str:
     """Return the numbers of answers and students, in words."""
     students = len({answer.student for answer in answers})
-    return f"{_counted(len(answers), 'answer')} by {_counted(students, 'student')}"
+    return f"{counted((len(answers), 'answer'))} by {counted((students, 'student'))}"
 
 
 def page(answers: Sequence[ClassAnswer], titles: Sequence[str]) -> str:
@@ -118,7 +118,7 @@ def mistakes(answers: Sequence[ClassAnswer]) -> list[tuple[NamedMistake, int]]:
 def _row(title: str, answers: Sequence[ClassAnswer], numbers: dict[str, int]) -> str:
     cells = "".join(f'<td class="count">{count}</td>' for count in counts(answers))
     items = "".join(
-        f"<li>{_counted(students, 'student')}: {_mistake(mistake, numbers)}</li>"
+        f"<li>{counted((students, 'student'))}: {_mistake(mistake, numbers)}</li>"
         for mistake, students in mistakes(answers)
     )
     return f"<tr><td>{_step(title, numbers)}</td>{cells}<td><ul>{items}</ul></td></tr>\n"
@@ -139,13 +139,9 @@ def _lecture_text(text: str) -> str:
     """Return a lecture's text as HTML; as it is if it cannot be typeset."""
     text = shortened(text, LONGEST)
     try:
-        return written(text, "book")
+        return written(text)
     except LucidaError:
         return plain(text)
-
-
-def _counted(number: int, noun: str) -> str:
-    return f"{number:,} {noun}{'' if number == 1 else 's'}"
 
 
 class _Extra(msgspec.Struct):

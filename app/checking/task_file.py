@@ -29,8 +29,7 @@ from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.kind import CheckKind
 from lucida.app.checking.task_schema import PROJECTIONS, ConventionsTable, TaskFile, TaskTable
 from lucida.app.checking.tasks import CAMERA_KINDS, WITH_CAMERAS, CheckTask, Limits
-from lucida.app.state.options.shared import Notation
-from lucida.app.ui.explaining.symbols import spoken
+from lucida.app.ui.explaining.symbols import Notation, spoken
 from lucida.renderer.files.places import Places, located
 from lucida.renderer.files.reading import decode_text, read_file, suggestion
 from lucida.renderer.files.tables import parse_toml, to_struct

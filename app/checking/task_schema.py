@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, field
 
-from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.symbols import Notation
 from lucida.renderer.files.schema import Numbers3, StrictTable
 
 Seed = Annotated[int, Meta(ge=0)]

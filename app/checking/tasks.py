@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
 from lucida.app.checking.conventions import Conventions
-from lucida.app.state.options.shared import Notation
+from lucida.app.ui.explaining.symbols import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size

@@ -12,7 +12,7 @@ from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import add_view_option
 from lucida.app.commands.many import add_workers_options, look_of, make_film
 from lucida.app.commands.render import check_effects
-from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import LucidaError, counted, one_line
 
 if TYPE_CHECKING:
     from lucida.app.cameras.films.paths import Key
@@ -104,7 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
     shots = [Shot(camera, arguments.size) for camera in cameras]
     make_film(Film(path, scene, shots, look, write), arguments, "frames")
     print(
-        f"{one_line(arguments.output)}: {common.counted((len(cameras), 'frame'))}, "
+        f"{one_line(arguments.output)}: {counted((len(cameras), 'frame'))}, "
         f"{arguments.size[0]}x{arguments.size[1]}, {len(cameras) / arguments.fps:.4g} s"
     )
     return 0

@@ -291,10 +291,5 @@ def _bar(label: str, start: float) -> tqdm[NoReturn]:
     return bar
 
 
-def counted(*counts: tuple[int, str]) -> str:
-    """Return counts as text: `2 objects, 1 light`."""
-    return ", ".join(f"{count} {what}{'s' * (count != 1)}" for count, what in counts)
-
-
 def _is_whole(text: str) -> bool:
     return text.isascii() and text.isdigit() and len(text) < 19

@@ -22,7 +22,7 @@ from lucida.app.commands.given_camera import (
     source_of,
     with_remedy,
 )
-from lucida.renderer.system.errors import LucidaError, errors_as, one_line, visible
+from lucida.renderer.system.errors import LucidaError, counted, errors_as, one_line, visible
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -85,8 +85,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.renderer.files.cameras import Options, read_chosen, without_choice
-    from lucida.renderer.files.cameras.saving import save_files
+    from lucida.renderer.files.cameras import Options, read_chosen, save_files, without_choice
 
     # Check for quick mistakes first.
     target = _target(arguments)
@@ -100,6 +99,7 @@ def run(arguments: argparse.Namespace) -> int:
         arguments.pixel_origin,
         arguments.size,
         arguments.ignore_distortion,
+        is_binary=(arguments.output or "").lower().endswith(".glb"),
     )
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
     own = found.cameras if chosen is None else (chosen,)
@@ -115,7 +115,7 @@ def run(arguments: argparse.Namespace) -> int:
         sys.stdout.write(visible(text) if sys.stdout.isatty() else text)
     else:
         save_files(Path(arguments.output), files)
-        told = common.counted((len(own), "camera"))
+        told = counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
     say_notes(found, file)
     say_changes(own, arguments.size)

@@ -45,13 +45,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--show",
         choices=("causes", "absolute", "signed"),
-        default="causes",
-        help="what the picture shows (default: causes)",
+        help="what the picture of -o shows (default: causes)",
     )
     parser.add_argument(
         "--channel",
         choices=("color", "depth", "normal", "id"),
-        default="color",
         help="the channel of absolute and signed (default: color)",
     )
     parser.add_argument(
@@ -59,7 +57,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=common.real(
             lambda gain: 0 < gain < math.inf, "is not a gain; give a number above 0, e.g. 16"
         ),
-        default=1.0,
         metavar="G",
         help="the factor of the difference in these (default: 1)",
     )
@@ -74,9 +71,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     from lucida.renderer.compare.raster_and_ray import compare
     from lucida.renderer.images import PICTURES, check_image_path, write_picture
+    from lucida.renderer.system.errors import LucidaError
 
+    show, channel, gain = arguments.show, arguments.channel, arguments.gain
     if arguments.output is not None:
         check_image_path(arguments.output, PICTURES)
+    elif show or channel or gain:
+        raise LucidaError("--show, --channel, --gain", "are for the picture", "add -o DIFF.png")
+    if (channel or gain) and show in (None, "causes"):
+        remedy = "add --show absolute or --show signed"
+        raise LucidaError("--channel, --gain", "are not for a picture of causes", remedy)
     scene, camera = common.scene_and_camera(arguments)
     with common.progress_bar("compare") as progress:
         comparison = compare(
@@ -88,13 +92,10 @@ def run(arguments: argparse.Namespace) -> int:
             arguments.enlargement,
         )
     if arguments.output is not None:
-        picture = (
-            comparison.difference_image()
-            if arguments.show == "causes"
-            else comparison.false_color(
-                arguments.channel, arguments.gain, signed=arguments.show == "signed"
-            )
-        )
+        if show in (None, "causes"):
+            picture = comparison.difference_image()
+        else:
+            picture = comparison.false_color(channel or "color", gain or 1.0, show == "signed")
         write_picture(arguments.output, picture)
     if arguments.json:
         print(json.dumps(comparison.to_dict(arguments.indexing), indent=2, allow_nan=False))

@@ -7,7 +7,7 @@ import argparse
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import add_view_option, with_remedy
-from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import LucidaError, counted, one_line
 
 NAME = "export"
 
@@ -45,6 +45,6 @@ def run(arguments: argparse.Namespace) -> int:
     except LucidaError as error:
         up = ",".join(f"{part:g}" for part in camera.v)
         raise with_remedy(error, f"add --up={up}, which makes the basis orthonormal") from None
-    counts = common.counted((len(scene.visible), "object"), (len(scene.lights), "light"))
+    counts = counted((len(scene.visible), "object"), (len(scene.lights), "light"))
     common.say(f"{one_line(arguments.output)}: {counts}", *(f"  {line}" for line in left_out))
     return 0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import re
 import sys
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from lucida.app.commands import arguments as common
 from lucida.app.commands.view import window_size
-from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import LucidaError, counted, one_line
 
 if TYPE_CHECKING:
     from lucida.app.lecture.model import Lecture
@@ -148,6 +149,10 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.export is not None:
         if not arguments.export.strip():  # from an unset variable, for instance
             raise LucidaError("--export", "names no folder", "give one, or . for this one")
+        ending = Path(arguments.export).suffix
+        if ending[1:].isalpha() and not arguments.export.endswith(("/", os.sep)):
+            remedy = "give .html, .pdf, or a folder (slides/)"
+            raise LucidaError("--export", f"the ending {ending!r} is unknown", remedy)
         from lucida.app.window.lecturing import (
             export_lecture,  # after the quick checks, because it loads the window
         )
@@ -156,7 +161,7 @@ def run(arguments: argparse.Namespace) -> int:
         size = arguments.size or EXPORT_SIZE
         with common.progress_bar("export") as progress:
             written = export_lecture(lecture, path, folder, size, progress)
-        pictures = common.counted((len(written), "picture"))
+        pictures = counted((len(written), "picture"))
         common.say(f"{arguments.export}: {pictures}, {size[0]}x{size[1]}")
         return 0
     if arguments.results is not None:
@@ -190,7 +195,7 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
     content = pdf.pdf(html, program) if is_pdf else html.encode()
     with atomic_write(target) as file:
         file.write(content)
-    steps = common.counted((len(lecture.steps), "step"))
+    steps = counted((len(lecture.steps), "step"))
     common.say(f"{arguments.export}: {steps}, {len(content) / 1e6:.1f} MB")
     return 0
 
@@ -231,7 +236,7 @@ def _check(lecture: Lecture, path: Path, name: str) -> int:
         raise located(wrong, Places(path.read_text("utf-8-sig")), str(path))
     exercises = sum(build.exercise is not None for build in lecture.builds)
     unseen = "" if formula.available() else "; formulas not checked: no locale en_US.UTF-8 here"
-    told = common.counted((len(lecture.steps), "step"), (exercises, "exercise"))
+    told = counted((len(lecture.steps), "step"), (exercises, "exercise"))
     common.say(f"{name}: {told}{unseen}")
     for file in lecture.outside:
         print(f"  reads {one_line(str(file))}, outside of its folder: the window asks first")

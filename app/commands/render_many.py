@@ -23,7 +23,7 @@ from lucida.renderer.scene import flatten
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.scene.precision import check_precision
 from lucida.renderer.system.atomic import file_stem
-from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import LucidaError, counted, one_line
 
 JOINED = (".png", ".exr")  # formats of an image in parts
 PART_PIXELS = 1 << 21
@@ -80,7 +80,7 @@ def render_all(arguments: argparse.Namespace) -> int:
     names = file_names(found.cameras)
     make_film(Film(Path(arguments.output), scene, shots, look, None, names), arguments, "images")
     print(
-        f"{one_line(arguments.output)}: {common.counted((len(shots), 'image'))}, "
+        f"{one_line(arguments.output)}: {counted((len(shots), 'image'))}, "
         f"{arguments.channel}, "
         f"{arguments.renderer}, {time.perf_counter() - start_s:.1f} s"
     )

@@ -46,12 +46,11 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _contents(scene: Scene) -> list[str]:
     """Return a line on the whole, one for each object and each light, and what is odd."""
-    from lucida.app.commands.arguments import counted
     from lucida.renderer.editing.outline import outline
     from lucida.renderer.files.oddities import oddities
     from lucida.renderer.files.saving import light_table
     from lucida.renderer.scene.model import Mesh, triangles_of
-    from lucida.renderer.system.errors import one_line, quoted
+    from lucida.renderer.system.errors import counted, one_line, quoted
 
     rows = outline(scene)
     kinds = {number: row for row in rows for number in row.ids}

@@ -24,14 +24,14 @@ if TYPE_CHECKING:
 class Verdict:
     """The result of a comparison.
 
-    text: for the status line. unexplained: the number of pixels that differ for no good reason.
-    comparison: counts, errors and a label per pixel, even if shadows and mirrors, which only rays
-    find, make the images differ. darkness: of the ray image, and why.
+    text: for the status line. agrees: None if the images cannot be compared. comparison: counts,
+    errors and a label per pixel, even if shadows and mirrors, which only rays find, make the images
+    differ. darkness: of the ray image, and why.
     """
 
     request: ImageRequest
     text: str
-    unexplained: int
+    agrees: bool | None
     comparison: Comparison
     darkness: Darkness
 
@@ -100,11 +100,14 @@ class Agreement:
             flat, camera, size, raster, ray, request.has_effects, request.enlargement
         )
         dark = darkness(flat, camera, ray)
-        text, unexplained = comparison.summary_short(), comparison.unexplained
-        if request.has_effects and not comparison.nothing_hit:
-            text, unexplained = "not compared: only rays find shadows and mirrors", 0
+        text, agrees = comparison.verdict(), None
+        if comparison.nothing_hit:
+            pass
+        elif request.has_effects:
+            text = "not compared: only rays find shadows and mirrors"
         elif limit:
-            text, unexplained = f"not compared: the camera {limit}", 0
-        elif request.samples > 1:
-            text += ", at their centres"
-        return Verdict(request, text, unexplained, comparison, dark)
+            text = f"not compared: the camera {limit}"
+        else:
+            agrees = not comparison.unexplained
+            text = f"raster and ray: {text}" + ", at their centres" * (request.samples > 1)
+        return Verdict(request, text, agrees, comparison, dark)

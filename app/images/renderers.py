@@ -305,8 +305,11 @@ class Renderers(ImageSize):
         passed_s = self.live.preparing_s
         if passed_s < NOTE_AFTER_S:
             return ""
-        compiles = compile_note.note() if self.live.is_compiling else ""
-        return f"{compiles or 'preparing the scene for the ray tracer ...'} ({passed_s:.0f} s)"
+        text = "preparing the scene for the ray tracer ..."
+        if self.live.is_compiling:
+            note = compile_note.note() or "loading the ray tracer ..."
+            text = " ".join((note, compile_note.progress())).strip()
+        return f"{text} ({passed_s:.0f} s)"
 
     # Single pixels.
 

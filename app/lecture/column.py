@@ -90,7 +90,6 @@ class Column:
         step, options = session.step, host.state.options
         blocks, width = step.blocks, imgui.get_content_region_avail().x
         camera = host.renderers.camera(host.state)
-        self._slides.notation = options.notation
         self._slides.lit = stage_at(options.outside.formula, camera)
         self._fit(session, ImVec2(width, height))
         alpha = self._alpha(host)  # also without a text, so that the fading ends
@@ -122,7 +121,7 @@ class Column:
     def _fit(self, session: LectureSession, room: ImVec2) -> None:
         """Make the text as large as all builds of the step allow; an exercise needs its room."""
         builds = [one for one in session.lecture.builds if one.number == session.number]
-        fitted = *builds, room, theme.used(), self._slides.notation
+        fitted = *builds, room, theme.used()
         if fitted == self._fitted:
             return
         self._fitted = fitted

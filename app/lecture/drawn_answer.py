@@ -29,9 +29,7 @@ class DrawnAnswer:
         if answers.verdict is not None and not answers.verdict.right:
             step, texts = session.step, tuple(answers.texts.items())
             end = end_parameter(step.view.camera, host.focus.framed)
-            items = self._ghosts(
-                step.exercise, texts, step.view.camera, end, host.state.options.notation
-            )
+            items = self._ghosts(step.exercise, texts, step.view.camera, end)
         asked = (session.place, items) if items else None
         if items and asked != self._drawn:
             host.show(outside.name)

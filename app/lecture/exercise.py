@@ -10,7 +10,6 @@ from lucida.app.lecture.model import Exercise
 from lucida.app.lecture.slide import Slides
 from lucida.app.lecture.text import parse
 from lucida.app.state.kept_lecture import Answers, Judgement
-from lucida.app.state.options.shared import Notation
 from lucida.app.ui import theme
 from lucida.app.ui.areas import press_area
 from lucida.app.ui.checks import verdict_sign
@@ -55,7 +54,7 @@ def exercise(
     elif isinstance(task, ChoiceExercise):
         _choice(task, answers, slides, size)
     else:
-        _vectors(task, answers, slides.notation, fonts, size)
+        _vectors(task, answers, fonts, size)
     if reply := said or answers.verdict:
         imgui.dummy(ImVec2(0, 0.3 * size))
         wrong = theme.TEXT if said else theme.legible(theme.ERROR)
@@ -66,11 +65,9 @@ def exercise(
     return asked
 
 
-def _vectors(
-    task: TypedExercise, answers: Answers, notation: Notation, fonts: Fonts, size: float
-) -> None:
+def _vectors(task: TypedExercise, answers: Answers, fonts: Fonts, size: float) -> None:
     entered = False
-    shown = {name: symbols.answer(name, notation) for name in task.fields}
+    shown = {name: symbols.answer(name) for name in task.fields}
     wide = max(imgui.calc_text_size(name).x for name in shown.values()) + 0.8 * size
     for name in task.fields:
         start = imgui.get_cursor_pos_x()

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from lucida.app.instruments.outside import answers
-from lucida.app.instruments.outside.diagram import Item, Role, in_notation
+from lucida.app.instruments.outside.diagram import Item, Role
 from lucida.app.instruments.outside.second_camera import GivenRay
 from lucida.app.lecture.exercises import (
     RayExercise,
@@ -19,7 +19,6 @@ from lucida.app.lecture.exercises import (
 )
 from lucida.app.lecture.model import Exercise
 from lucida.app.state.kept_lecture import Judgement
-from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 
@@ -31,7 +30,6 @@ def ghosts(
     texts: tuple[tuple[str, str], ...],
     camera: Camera,
     end: float,
-    notation: Notation = "book",
 ) -> tuple[Item, ...]:
     """Return the drawing of a wrong answer; empty if it has nothing to draw.
 
@@ -43,7 +41,7 @@ def ghosts(
         items = _ray(task, dict(texts), end)
     elif isinstance(task, VectorExercise):
         items = _vectors(task, dict(texts), camera)
-    return tuple(in_notation(items, notation))
+    return tuple(items)
 
 
 def _ray(task: RayExercise, texts: Mapping[str, str], end: float) -> list[Item]:

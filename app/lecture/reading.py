@@ -27,7 +27,6 @@ from lucida.app.lecture.schema import (
 from lucida.app.lecture.step_options import files_named, options_from_table, with_files
 from lucida.app.lecture.written import formulas_written, texts_of
 from lucida.app.state.options import Options
-from lucida.app.state.options.shared import Notation
 from lucida.app.state.removed import without_removed, without_removed_views
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.files.load import BUILTIN_SCENES, load_scene
@@ -126,19 +125,20 @@ class _LectureReader:
         self._scenes: dict[str, Scene] = {}
         self._triangles = 0  # of all of them
         self._indexing = Indexing.LECTURE
-        self._notation: Notation | None = None
         self._notes: list[str] = []
         self._old = ""  # the line about the first field of an older format
         self._at = ""  # the field of the step that is being read
 
     def lecture(self, tables: dict[str, Any]) -> Lecture:
+        if "notation" in tables:
+            self._note("notation", without_removed({"notation": tables.pop("notation")})[1])
         file: LectureFile = to_struct(tables, LectureFile)
         _check_title("title", file.title, "the lecture's title")
         if not 1 <= len(file.steps) <= STEPS:
             raise LucidaError("steps", f"holds {len(file.steps)} steps", f"give 1 to {STEPS}")
         if len(file.scenes) > STEPS:
             raise LucidaError("scenes", f"holds {len(file.scenes)}", f"give at most {STEPS}")
-        self._indexing, self._notation = Indexing(file.pixels_from), file.notation
+        self._indexing = Indexing(file.pixels_from)
         check_inside(self._named(file))
         for name, scene in file.scenes.items():
             with under(f"scenes.{name}"):
@@ -297,8 +297,10 @@ class _LectureReader:
         )
 
     def _note(self, field: str, lines: list[str]) -> None:
-        """Keep lines about a field of the present step, with their place in the file."""
-        field = f"{self._at}.{field}"
+        """Keep lines about a field of the present step, or of the lecture, with their place in the
+        file.
+        """
+        field = f"{self._at}.{field}" if self._at else field
         where = f"{self._source}:{self._places.line(field)}: {field}"
         self._notes += [f"{where}: {line}" for line in lines]
 
@@ -306,8 +308,6 @@ class _LectureReader:
         """Return a step's changes of the options. All steps count pixels in the same way."""
         changes = with_files(options_from_table(tables), self._folder)
         one_based = self._indexing is Indexing.LECTURE
-        if self._notation is not None:
-            changes = {"notation": self._notation} | changes
         if one_based != Options().one_based:
             changes = {"one_based": one_based} | changes
         if changes.get("one_based", one_based) != one_based:

@@ -10,7 +10,6 @@ from typing import Any, Literal
 from msgspec import field
 
 from lucida.app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
-from lucida.app.state.options.shared import Notation
 from lucida.renderer.files.schema import Numbers3, StrictTable
 
 # What a step can show. A view of the window has the name with a capital.
@@ -107,13 +106,11 @@ AnyExercise = RayTable | VectorExercise | ChoiceExercise | HideTable
 
 class LectureFile(StrictTable, kw_only=True):
     """A lecture file. pixels_from: the number of the first row and column, in the file and in the
-    window. notation: the window's during its steps; None for the one that the user has chosen.
-    scenes: scenes as scene files hold them, by name, for the steps below.
+    window. scenes: scenes as scene files hold them, by name, for the steps below.
     """
 
     title: str
     author: str = ""
     pixels_from: Literal[0, 1] = 1
-    notation: Notation | None = None
     scenes: dict[str, Any] = field(default_factory=dict)
     steps: list[Any]

@@ -9,9 +9,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.instruments.outside.growing import lit_in
 from lucida.app.lecture.flow import Backdrop, Laid, Piece, PieceSize, Placed, lay
-from lucida.app.lecture.notation import in_notation
 from lucida.app.lecture.text import Block
-from lucida.app.state.options.shared import Notation
 from lucida.app.ui import theme
 from lucida.app.ui.formula import inline_math, lit, vector_colors
 from lucida.app.ui.lettering import lettering
@@ -23,8 +21,7 @@ TITLE, LARGER = 1.5, (1.4, 1.3, 1.2, 1.1)
 
 
 class Slides:
-    """A painter of texts in a notation, which keeps the last layouts, because they take long to
-    find.
+    """A painter of texts, which keeps the last layouts, because they take long to find.
 
     larger: the size of the texts' type, relative to the window's.
     """
@@ -33,7 +30,6 @@ class Slides:
         self._fonts = fonts
         self.larger = 1.0
         self.lit = ""  # the stage of the growing formula whose term is pointed out
-        self.notation: Notation = "book"
         self._lay = functools.lru_cache(256)(self._laid)
 
     def text(
@@ -78,7 +74,7 @@ class Slides:
     def _of(self, blocks: tuple[Block, ...], width: float, larger: float = 0.0) -> Laid:
         look = (framebuffer_scale(), theme.TEXT.x)
         size_px = theme.whole_px(theme.type_px() * (larger or self.larger))
-        return self._lay(in_notation(blocks, self.notation), max(round(width), 40), size_px, look)
+        return self._lay(blocks, max(round(width), 40), size_px, look)
 
     def _laid(
         self, blocks: tuple[Block, ...], width: float, size_px: float, look: tuple[float, ...]
@@ -117,7 +113,7 @@ class Slides:
             ink = theme.DIM if placed.kind == "mark" else color
             with lettering(self._font(piece.style), piece.size / theme.type_px()):
                 if piece.style == "math":
-                    latex = lit(piece.text, lit_in(piece.text, self.lit, self.notation))
+                    latex = lit(piece.text, lit_in(piece.text, self.lit))
                     inline_math(latex, piece.size, theme.TEXT, piece.display).draw(x, baseline, ink)
                     continue
                 if piece.style == "vector":

@@ -28,7 +28,7 @@ from lucida.renderer.system.errors import LucidaError, under
 _types = lru_cache(get_type_hints)  # it is slow
 
 OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
-CHOSEN = ("language", "notation")  # by the user, until a step changes them
+CHOSEN = ("language",)  # by the user, until a step changes them
 ELSEWHERE = (*OWN, "marked", "marked_size")  # options that have fields of their own in a step
 
 NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
@@ -43,7 +43,7 @@ def state_of(step: Step, base: AppState) -> AppState:
     """Return the step's own state: its scene, its view and its options. The object that an exercise
     asks to move is selected.
 
-    base: the current state. Only the user's own options, the language of programs, the notation and
+    base: the current state. Only the user's own options, the language of programs and
     the place in the lecture are kept.
     """
     kept = {name: getattr(base.options, name) for name in (*OWN, *CHOSEN)}

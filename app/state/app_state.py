@@ -17,6 +17,11 @@ from lucida.renderer.scene.model import Scene, View
 
 MOST_UNDO_STEPS = 500
 ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
+# The options that undo brings back, with the resolution and the selection.
+UNDONE = (
+    *("marked", "marked_size", "probe", "shadows", "mirrors"),
+    *("bookmarks", "photograph", "poses"),
+)
 
 
 @dataclass(frozen=True)
@@ -89,12 +94,15 @@ class AppState:
         state = replace(self, scene=scene, keep_orthonormal=True)
         return state.with_view(scene.view if view is None else view)
 
-    def looking_as(self, other: AppState) -> AppState:
-        """Return the state with the window's looks and the images' display of another one."""
-        images = self.images.displayed_as(other.images)
-        return replace(
-            self, options=replace(self.options, preferences=other.preferences, images=images)
-        )
+    def undone_in(self, present: AppState) -> AppState:
+        """Return this earlier state as undo brings it back: camera, scene, marks, and what is drawn
+        are its own; the looks, the display and the instruments' options stay those of the present.
+        """
+        mine, options = self.options, present.options
+        kept = {name: getattr(mine, name) for name in UNDONE}
+        images = mine.images.displayed_as(options.images)
+        objects = replace(options.objects, chosen=mine.objects.chosen)
+        return replace(self, options=replace(options, images=images, objects=objects, **kept))
 
     def with_fit(self, fit: bool) -> AppState:
         """Return the state with this switch. Off, the camera's own image size is forgotten."""
@@ -114,8 +122,8 @@ class AppState:
 class History:
     """A present state with the ones before and after it.
 
-    Undo leaves the window's looks and the images' display as they are; a change of only these is no
-    step. gesture: a key of the last change's drag; changes of one gesture are one step.
+    Undo is for the camera, the scene and marks, see AppState.undone_in(); a change of anything else
+    is no step. gesture: a key of the last change's drag; changes of one gesture are one step.
     """
 
     present: AppState
@@ -169,13 +177,13 @@ class History:
         return History(self._again(self.future[0]), (*self.past, self.present), self.future[1:])
 
     def _again(self, state: AppState) -> AppState:
-        """Return a state with what undo leaves as it is at present. A lecture's step has a display
-        of its own.
+        """Return a state with what undo leaves as it is at present. A lecture's step has options of
+        its own.
         """
         if state.step != self.present.step:
             preferences = self.present.preferences
             return replace(state, options=replace(state.options, preferences=preferences))
-        return state.looking_as(self.present)
+        return state.undone_in(self.present)
 
 
 def is_orthonormal(camera: Camera) -> bool:

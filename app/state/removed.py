@@ -40,6 +40,7 @@ QUIZ = "there is no quiz of wrong lines any more; a lecture asks by exercises"
 
 # Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
 REMOVED: dict[str, Removed] = {
+    "notation": Removed("formulas and programs have the lecture's letters", "book"),
     "stepper.form": Removed("object order goes triangle by triangle", "triangles"),
     "presets_in_perspective": Removed("presets are parallel; P switches the projection", False),
     "objects.along": Removed("handles are along the world's axes", "world"),

@@ -11,6 +11,7 @@ from imgui_bundle import imgui
 
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options import Options
+from lucida.app.ui import theme
 from lucida.app.ui.host import Host
 
 Key = imgui.Key
@@ -38,7 +39,7 @@ class Action:
     is_on: for switches, the state.
     can: True if it is possible now.
     separated: draw a line above it.
-    tip: the tooltip of its entry in a menu.
+    tip: the tooltip of its entry in a menu, or a line below it.
     """
 
     menu: str
@@ -109,13 +110,18 @@ def choosing(
     return Action(menu, name, changing(change), keys, is_on=is_on, **more)
 
 
-def draw_entry(action: Action, host: Host, first: bool = False) -> None:
-    """Draw an action as an entry of the current menu. first: without a line above it."""
+def draw_entry(action: Action, host: Host, first: bool = False, below: bool = False) -> None:
+    """Draw an action as an entry of the current menu.
+
+    first: without a line above it. below: its tip is a line below it, not a tooltip.
+    """
     if action.separated and not first:
         imgui.separator()
     on = action.is_on(host.state) if action.is_on else False
     can = action.can(host) if action.can else True
     if imgui.menu_item(action.name, action.keys, on, can)[0]:
         action.run(host)
-    if action.tip:
+    if action.tip and below:
+        imgui.text_colored(theme.DIM, f"    {action.tip}")
+    elif action.tip:
         imgui.set_item_tooltip(action.tip)

@@ -30,7 +30,8 @@ def code(lines: Sequence[str], lit: Mapping[int, float], width_px: float) -> Non
     for number, text in enumerate(lines):
         low = corner + ImVec2(0, number * line_px)
         if part := lit.get(number, 0.0):
-            lit_color, bar_color = theme.u32(theme.FRAME_ACTIVE, part), theme.u32(theme.RAY, part)
+            lit_color = theme.u32(theme.LIT, part)
+            bar_color = theme.u32(theme.seen(theme.RAY), part)
             draw.add_rect_filled(low, low + ImVec2(width_px, line_px), lit_color, 2.0)
             draw.add_rect_filled(low, low + ImVec2(bar, line_px), bar_color)
         for column, word in code_words(text):

@@ -122,15 +122,14 @@ def formula(parts: Iterable[str], size_px: float, key: str) -> None:
 
 def lit(latex: str, part: str) -> str:
     """Return a formula with one of its parts on a ground of its own; unchanged without a part."""
-    ground = _hex(theme.FRAME_ACTIVE)
+    ground = _hex(theme.LIT)
     return latex.replace(part, rf"\bgcolor{{{ground}}}{{{part}}}", 1) if part else latex
 
 
 def vector_colors() -> dict[str, ImVec4]:
-    """Return the colours of vectors by their names in both notations."""
+    """Return the colours of vectors by their names."""
     ray = dict.fromkeys(("p", "d", "r", "origin", "direction"), theme.RAY)
-    plain = dict.fromkeys(("e", "eye"), theme.TEXT)
-    return theme.BASIS | ray | dict.fromkeys(("x", "point"), theme.MARK) | plain
+    return theme.BASIS | ray | {"x": theme.MARK, "e": theme.TEXT}
 
 
 def tinted(latex: str) -> str:

@@ -23,6 +23,7 @@ class Palette:
     """The colours of a theme.
 
     ACCENT, FILL: of the outline and of the ground, under text, of what is chosen.
+    LIT: the ground of what is pointed out in a formula or a program.
     LINE_WIDTH: the factor for the width of lines that teach.
     """
 
@@ -43,6 +44,7 @@ class Palette:
     LINE: ImVec4
     ACCENT: ImVec4
     FILL: ImVec4
+    LIT: ImVec4
     LINE_WIDTH: float = 1.0
 
     def changed(self, u: str, v: str, w: str, **colors: str) -> Palette:
@@ -55,7 +57,7 @@ class Palette:
 # Of a colour's channels, red, green and blue; legible() makes text of them.
 CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
 
-_BLACK: Any = [rgb("#000000")] * 16
+_BLACK: Any = [rgb("#000000")] * 17
 _NONE = Palette({}, *_BLACK)
 # Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
 DARK = _NONE.changed(
@@ -65,7 +67,7 @@ DARK = _NONE.changed(
     PLAIN="#9aa3ad",
     TEXT="#e8eaed",
     DIM="#a3abb5",
-    ERROR="#ff7391",
+    ERROR="#ff8aa3",
     GOOD="#35c497",
     BACKGROUND="#16181b",
     PANEL="#1e2125",
@@ -74,16 +76,17 @@ DARK = _NONE.changed(
     FRAME_HOVERED="#373d45",
     FRAME_ACTIVE="#434b55",
     LINE="#3a4048",
-    ACCENT="#4d6a86",
+    ACCENT="#56779a",
     FILL="#4d6a86",
+    LIT="#3d3200",
 )
 LIGHT = DARK.changed(
     *("#d55e00", "#008a64", "#0072b2"),
     PLAIN="#717a84",
     TEXT="#16191c",
     DIM="#545c65",
-    ERROR="#b0003a",
-    GOOD="#00704f",
+    ERROR="#a80037",
+    GOOD="#00664a",
     BACKGROUND="#d9dde1",
     PANEL="#f6f7f8",
     POPUP="#ffffff",
@@ -93,6 +96,7 @@ LIGHT = DARK.changed(
     LINE="#b9c0c8",
     ACCENT="#3d78ad",
     FILL="#a9cbe6",
+    LIT="#f2db84",
 )
 # Projectors reduce contrast: use the ends of the scale, and brighter colours.
 PRESENTED_DARK = replace(DARK, LINE_WIDTH=2.0).changed(
@@ -128,4 +132,5 @@ CONTRAST = PRESENTED_DARK.changed(
     LINE="#ffffff",
     ACCENT="#9fd4ff",
     FILL="#00457f",
+    LIT="#2b2300",
 )

@@ -8,6 +8,7 @@ from lucida.app.ui import theme
 
 LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # next to three fields, next to one
 HALF_LABEL_EM = 4.0  # in a line of two fields
+TIP_EM = 40.0  # the width of a tooltip: a wider one would not fit beside its item
 NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter labels
 
 
@@ -109,7 +110,9 @@ class Halves:
 def tip(text: str) -> None:
     """Show a tooltip on the last item, in lines that fit the window."""
     if imgui.begin_item_tooltip():
-        imgui.push_text_wrap_pos(0.9 * imgui.get_main_viewport().work_size.x)
+        imgui.push_text_wrap_pos(
+            min(TIP_EM * imgui.get_font_size(), 0.9 * imgui.get_main_viewport().work_size.x)
+        )
         imgui.text_unformatted(text)
         imgui.pop_text_wrap_pos()
         imgui.end_tooltip()

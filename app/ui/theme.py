@@ -114,7 +114,7 @@ def follow(preferences: Preferences, in_lecture: bool = False) -> None:
     scale = style.font_scale_dpi * look.scale
     # HelloImGui scales the sizes to the display in its second frame, whatever was done before.
     if height_px <= 0 or (
-        look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)
+        look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)  # noqa: SLF001, no public way
     ):
         return
     _used[0] = look
@@ -271,19 +271,21 @@ def line_px(at_100_percent: float = 1.0) -> float:
 
 
 def legible(color: ImVec4) -> ImVec4:
-    """Return the colour for text on a panel: yellow and orange are darkened on light panels."""
-    least = ENHANCED if _used[0].theme == "contrast" else LEGIBLE
-    return _contrasting(color, _rgb(_used[0].palette.PANEL), least)
+    """Return the colour for text: yellow and orange are darkened in the light themes.
 
-
-def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:
-    """Return the colour for a background that is not the theme's: lighter or darker if it would not
-    stand out.
+    The ground of lit text is the one that is hardest to read on.
     """
-    return _contrasting(color, ground, SEEN)
+    least = ENHANCED if _used[0].theme == "contrast" else LEGIBLE
+    return seen_on(color, _rgb(_used[0].palette.LIT), least)
 
 
-def _contrasting(color: ImVec4, ground: Rgb, least: float) -> ImVec4:
+def seen(color: ImVec4) -> ImVec4:
+    """Return the colour for a line or a mark on a panel."""
+    return seen_on(color, _rgb(_used[0].palette.PANEL))
+
+
+def seen_on(color: ImVec4, ground: Rgb, least: float = SEEN) -> ImVec4:
+    """Return the colour, lighter or darker if its contrast with the ground is less than `least`."""
     return ImVec4(*legible_on(_rgb(color), ground, least), color.w)
 
 

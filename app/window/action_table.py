@@ -13,7 +13,11 @@ from lucida.app.ui.host import Host
 from lucida.app.window.actions import BOOKMARKS, EFFECTS, FILE, HELP, LOOK, QUIT, UNDO
 from lucida.app.window.instruments import INSTRUMENTS
 
-MENUS = ("File", "Edit", "Scene", "Camera", "Image", "View", "Lecture", "Help")
+# The last one is at the right end of the bar.
+MENUS = (
+    *("File", "Edit", "Scene", "Camera", "Image"),
+    *("Instruments", "View", "Lecture", "Help", "Layout"),
+)
 
 # The window's own and the instruments' actions in the order of the menus. Within a menu, they keep
 # the order in which they are named here.

@@ -9,12 +9,12 @@ from dataclasses import replace
 
 from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import range_of
-from lucida.app.state.options.shared import Notation, Preferences, Theme
+from lucida.app.state.options.shared import Preferences, Theme
 from lucida.app.ui import layout
 from lucida.app.ui.action import Action, changing, choosing
-from lucida.app.ui.explaining import symbols
 from lucida.app.window import bookmarks
 from lucida.app.window.camera_files import CAMERA_FILES
+from lucida.app.window.documents import ABOUT, FIRST, GETTING_STARTED
 
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
@@ -22,10 +22,6 @@ FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCAL
 
 def _theme(name: Theme, title: str) -> Action:
     return choosing("View/Theme", title, "preferences.theme", name)
-
-
-def _notation(name: Notation) -> Action:
-    return choosing("View/Notation", f"Notation of {symbols.NAMES[name]}", "notation", name)
 
 
 def scaled(state: AppState, step: int) -> AppState:
@@ -42,7 +38,7 @@ def scaled(state: AppState, step: int) -> AppState:
 
 def _layout(number: int, one: layout.Layout) -> Action:
     return Action(
-        "View/Layout",
+        "Layout",
         one.name,
         lambda window: layout.switch(one.name),
         f"Ctrl+F{number + 1}",
@@ -165,10 +161,8 @@ LOOK = (
         changing(lambda state: scaled(state, 0)),
         "Ctrl+0",
     ),
-    _notation("book"),
-    _notation("code"),
     *(_layout(number, one) for number, one in enumerate(layout.CHOICES)),
-    Action("View/Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
+    Action("Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
     Action(
         "View",
         "Next view",
@@ -185,11 +179,13 @@ LOOK = (
 )
 
 EFFECTS = (
-    choosing("View", "Shadows (ray image only)", "shadows", True, off=False, separated=True),
-    choosing("View", "Mirrors (ray image only)", "mirrors", True, off=False),
+    choosing("Image", "Shadows (ray image only)", "shadows", True, off=False, separated=True),
+    choosing("Image", "Mirrors (ray image only)", "mirrors", True, off=False),
 )
 
 HELP = (
+    Action("Help", GETTING_STARTED, lambda w: w.shell.open_document(GETTING_STARTED)),
+    Action("Help", "Documentation", lambda w: w.shell.open_document(FIRST)),
     Action(
         "Help",
         "Find a command",
@@ -210,4 +206,5 @@ HELP = (
         "F4",
         can=lambda w: w.renderers.failure is not None or w.shell.has_failed,
     ),
+    Action("Help", ABOUT, lambda w: w.shell.open_document(ABOUT), separated=True),
 )

@@ -14,9 +14,8 @@ from lucida.app.cameras.camera_panel.actions import image_size
 from lucida.app.cameras.text import CALLED
 from lucida.app.ui.action import Action
 from lucida.app.ui.host import Host
-from lucida.renderer.files.cameras import FORMATS, PosedCamera, written
+from lucida.renderer.files.cameras import FORMATS, Options, PosedCamera, save_files, written
 from lucida.renderer.files.cameras.formats import Format
-from lucida.renderer.files.cameras.saving import save_files
 from lucida.renderer.system.errors import LucidaError, one_line
 
 MENU = "File/Save camera as"
@@ -45,7 +44,8 @@ def _save_dialog(window: Host, entry: Format) -> None:
         return
 
     def store(path: str) -> str:
-        save_files(Path(path), written([posed], entry.name))
+        options = Options(is_binary=path.lower().endswith(".glb"))
+        save_files(Path(path), written([posed], entry.name, options))
         return one_line(f"Saved the camera as {path} ({CALLED[entry.name]}).")
 
     name = f"camera{entry.endings[0]}"

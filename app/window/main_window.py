@@ -14,6 +14,7 @@ import moderngl
 from imgui_bundle import hello_imgui
 
 from lucida.app.checking.your_code.view import YourCodeView
+from lucida.app.images.compare.actions import show_differing
 from lucida.app.images.pair.view import RASTER
 from lucida.app.images.renderers import Renderers
 from lucida.app.lecture.view import LECTURE, LectureView
@@ -46,7 +47,7 @@ class MainWindow(Edits):
     its context.
 
     smooth: keep the display's rate while tracing; not needed for a picture. keeper: saves the
-    session. folder: of the list of recent files. None keeps neither.
+    session. folder: of the user's settings. None keeps neither.
     """
 
     def __init__(
@@ -64,7 +65,7 @@ class MainWindow(Edits):
         self.renderers = Renderers(self._wake, smooth)
         self.views = {view.name: view for view in make_views()}
         views = list(self.views.values())
-        self.shell = Shell(views, self.files, self.fonts, self._wake, keeper)
+        self.shell = Shell(views, self.files, self.fonts, self._wake, keeper, folder)
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
@@ -216,6 +217,7 @@ class MainWindow(Edits):
     def begin(self, context: moderngl.Context) -> None:
         """Begin, once, when the window's context is there, and current."""
         self.renderers.begin(context)
+        self.shell.documents.begin(context)
         for view in self.views.values():
             self.shell.stage.failed.begin(view, self, context)
         on_drop(self._dropped)
@@ -280,7 +282,7 @@ class MainWindow(Edits):
         image = both.shown_ray(state) if both.is_tracing else None
         verdict, failure = both.verdict(state), both.agreement.error
         pixel = self._hovered[1] if self._hovered else state.marked
-        status_line(
+        pressed = status_line(
             Status(
                 raster_s=both.raster_s,
                 raster_factor=both.raster_factor,
@@ -288,7 +290,7 @@ class MainWindow(Edits):
                 size=both.size,
                 factor=image.factor if image else 0,
                 agreement=told(verdict, failure) or both.preparing(),
-                agrees=is_good_news(verdict, failure, state.has_effects),
+                agrees=is_good_news(verdict, failure),
                 scene=state.scene.name,
                 pixel=pixel,
                 indexing=state.options.indexing,
@@ -296,10 +298,15 @@ class MainWindow(Edits):
                 loading=self.files.loading,
                 brief=state.preferences.presentation,
                 awaited=both.is_tracing,
+                differing=bool(
+                    verdict and verdict.agrees is not None and verdict.comparison.differing
+                ),
             ),
             self.fonts,
             room,
         )
+        if pressed:
+            show_differing(self)
 
     def end(self) -> None:
         """End, once, before the context is destroyed."""
@@ -307,6 +314,7 @@ class MainWindow(Edits):
         self.shell.end(self, keeps_edits=not self.saving.discards)
         for view in self.views.values():
             view.end()
+        self.shell.documents.end()
         self.renderers.end()
         self.files.close()
         self.saving.close()

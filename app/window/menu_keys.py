@@ -34,6 +34,8 @@ class MenuKeys:
         self._walking = 3 if sideways else max(0, self._walking - 1)
         nav, escape = imgui.get_current_context().nav_window, imgui.is_key_pressed(Key.escape)
         is_on_bar = nav is not None and nav.name == BAR
+        if escape and is_open and _is_over_menu():
+            imgui.internal.close_popup_to_level(0, True)
         if not self.in_menus:
             if asked and not is_open:
                 self._enter()
@@ -75,3 +77,9 @@ class MenuKeys:
         if self._before is not None:
             imgui.internal.focus_window(self._before)
         imgui.set_nav_cursor_visible(True)
+
+
+def _is_over_menu() -> bool:
+    """Return True if the mouse is over an open menu, which would open its submenu again."""
+    hovered = imgui.get_current_context().hovered_window
+    return hovered is not None and "###Menu_" in hovered.name

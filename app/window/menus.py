@@ -4,7 +4,7 @@ views, the last steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from imgui_bundle import ImVec2, imgui
 
@@ -34,21 +34,22 @@ def menu_bar(
 
     status: draws the status line into a room of this width; None if it has a bar of its own.
     """
-    gap = 2 * imgui.get_style().item_spacing.x
-    needed = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS)
-    if needed <= imgui.get_window_width():
-        _menus(window, history, stage)
-    elif imgui.begin_menu("Menu"):
-        _menus(window, history, stage)
-        imgui.end_menu()
     name, style = layout.current().name, imgui.get_style()
+    gap, whole = 2 * style.item_spacing.x, imgui.get_window_width()
     width = imgui.calc_text_size(name).x + imgui.get_font_size()  # with the arrow
-    left = imgui.get_window_width() - width - 2 * style.item_spacing.x
-    room = left - imgui.get_cursor_pos_x() - 4 * style.item_spacing.x
+    left = whole - width - gap
+    fits = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS[:-1]) <= left
+    if fits:
+        _menus(MENUS[:-1], window, history, stage)
+    elif imgui.begin_menu("Menu"):
+        _menus(MENUS, window, history, stage)
+        imgui.end_menu()
+    right = left if fits else whole
+    room = right - imgui.get_cursor_pos_x() - 2 * gap
     if status is not None and room > LEAST_STATUS_EM * imgui.get_font_size():
         imgui.dummy((0, 0))
         status(room)
-    if left >= imgui.get_cursor_pos_x():  # otherwise the menu View has them
+    if fits:
         imgui.set_cursor_pos_x(left)
         _layouts(window, name)
 
@@ -74,15 +75,15 @@ def menu_button(window: Host, history: History, stage: Stage) -> None:
     if imgui.button("Menu"):
         imgui.open_popup("menus")
     if imgui.begin_popup("menus"):
-        _menus(window, history, stage)
+        _menus(MENUS, window, history, stage)
         imgui.end_popup()
     imgui.end()
 
 
-def _menus(window: Host, history: History, stage: Stage) -> None:
-    for menu in MENUS:
+def _menus(menus: Sequence[str], window: Host, history: History, stage: Stage) -> None:
+    for menu in menus:
         if imgui.begin_menu(menu):
-            if menu == "View":
+            if menu == "Instruments":
                 _views(stage)
             _actions(menu, window, history)
             imgui.end_menu()
@@ -112,10 +113,13 @@ def _actions(menu: str, window: Host, history: History) -> None:
             if rest == "Bookmarks":
                 _bookmarks(window)
             else:
-                for entry in ACTIONS:
-                    if entry.menu == action.menu:
-                        draw_entry(entry, window, first=entry is action)
+                _entries(action.menu, window)
             imgui.end_menu()
+
+
+def _entries(menu: str, window: Host) -> None:
+    for number, entry in enumerate(one for one in ACTIONS if one.menu == menu):
+        draw_entry(entry, window, first=number == 0, below=menu == MENUS[-1])
 
 
 def _scenes(window: Host) -> None:
@@ -193,13 +197,11 @@ def _bookmarks(window: Host) -> None:
 
 
 def _views(stage: Stage) -> None:
-    if imgui.begin_menu("Views"):
-        for name, view in stage.views.items():
-            shown = stage.is_shown(name)
-            label = " ".join(view.title.split())
-            if imgui.menu_item(f"{label}###{name}", "", shown)[0]:
-                stage.show(name, not shown)
-        imgui.end_menu()
+    for name, view in stage.views.items():
+        shown = stage.is_shown(name)
+        label = " ".join(view.title.split())
+        if imgui.menu_item(f"{label}###{name}", "", shown)[0]:
+            stage.show(name, not shown)
     imgui.separator()
 
 
@@ -207,14 +209,12 @@ def _layouts(window: Host, name: str) -> None:
     """Draw the layout's name at the right end of the bar, as a menu to select another."""
     arrow, style = 0.5 * imgui.get_font_size(), imgui.get_style()
     corner = imgui.get_cursor_screen_pos()
-    opened = imgui.begin_menu(f"{name}    ###layouts")
+    opened = imgui.begin_menu(f"{name}    ###{MENUS[-1]}")
     end = imgui.calc_text_size(name).x + style.item_spacing.x + arrow
     middle = corner + ImVec2(end, 0.5 * imgui.get_frame_height())
     draw = imgui.get_foreground_draw_list()
     first, second, tip = (middle + ImVec2(x, y) * arrow for x, y in ARROW)
     draw.add_triangle_filled(first, second, tip, theme.u32(theme.DIM))
     if opened:
-        for action in ACTIONS:
-            if action.menu == "View/Layout":
-                draw_entry(action, window)
+        _entries(MENUS[-1], window)
         imgui.end_menu()

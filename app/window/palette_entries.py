@@ -41,7 +41,10 @@ OWN = {
     "Dark theme": "mode colors colours night",
     "Light theme": "mode colors colours bright day",
     "Find a command": "palette search",
-    "Mouse and keys": "help shortcuts keyboard hotkeys bindings about version",
+    "Getting started": "tutorial introduction first steps",
+    "Documentation": "manual docs help read",
+    "Mouse and keys": "help shortcuts keyboard hotkeys bindings",
+    "About Lucida": "version licence license",
     "Shadows (ray image only)": "shadow",
     "Mirrors (ray image only)": "reflection reflections",
 }
@@ -54,7 +57,7 @@ def entries(window: Host, stage: Stage) -> list[Entry]:
     state, files = window.state, window.files
     found = [_of_action(action, window) for action in ACTIONS]
     for name, view in stage.views.items():
-        title, menu = " ".join(view.title.split()), "View > Views"
+        title, menu = " ".join(view.title.split()), "Instruments"
         also = SYNONYMS.get(title, "")
         found.append(Entry(f"Go to {title}", menu, partial(stage.show, name), also=also))
         if stage.is_shown(name):
@@ -85,7 +88,7 @@ def pages(window: Host) -> list[Entry]:
     return [
         Entry(
             page,
-            "View > Views",
+            "Instruments",
             partial(_show_page, window, instrument.name, options),
             also=SYNONYMS.get(page, ""),
         )

@@ -28,6 +28,7 @@ from lucida.app.window.keys import KeyFrames
 from lucida.renderer.system.errors import LucidaError, one_line
 
 REQUIRED = (3, 3)
+DEFAULT_SIZE = (1280, 720)
 _LOCKED = int(imgui.ImFontFlags_.lock_baked_sizes)
 LONGEST_PLACING_S = 0.25  # that is waited for a window manager to place the window
 
@@ -139,11 +140,24 @@ def on_drop(dropped: Callable[[list[str]], None]) -> None:
 
         # glfw.set_drop_callback() takes all names for UTF-8, and fails at others.
         binding: Any = glfw
-        _on_drop[:] = [binding._GLFWdropfun(call)]
-        binding._glfw.glfwSetDropCallback(window, _on_drop[0])
+        _on_drop[:] = [binding._GLFWdropfun(call)]  # noqa: SLF001, no public way
+        binding._glfw.glfwSetDropCallback(window, _on_drop[0])  # noqa: SLF001
 
 
 _on_drop: list[Any] = []  # what is called lives as long as the window
+
+
+def default_size(platform: Platform) -> tuple[int, int]:
+    """Return two thirds of the screen's (width, height), but at least DEFAULT_SIZE if that fits."""
+    monitor = glfw.get_primary_monitor() if platform.has_display else None
+    if not monitor:
+        return DEFAULT_SIZE
+    rooms = glfw.get_monitor_workarea(monitor)[2:]
+    width, height = (
+        min(room, max(2 * room // 3, least))
+        for room, least in zip(rooms, DEFAULT_SIZE, strict=True)
+    )
+    return width, height
 
 
 def set_size(size: tuple[int, int]) -> None:

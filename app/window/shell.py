@@ -27,8 +27,10 @@ from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
 from lucida.app.web import ENDINGS as PAGES
 from lucida.app.window.capture import Captures, Rect
+from lucida.app.window.documents import Documents
 from lucida.app.window.exporting import Exports
 from lucida.app.window.files import Files
+from lucida.app.window.hints import Hints
 from lucida.app.window.palette import CommandPalette
 from lucida.app.window.palette_entries import entries
 from lucida.app.window.platform import toggle_full_screen
@@ -46,7 +48,7 @@ REDRAWN = 8  # frames after a change of the bars or of the views' places
 class Shell:
     """The shell of one window. keeper: saves the session; None if none is kept.
 
-    wake: asks for a frame, from any thread.
+    wake: asks for a frame, from any thread. folder: of the settings; None for none.
     """
 
     def __init__(
@@ -56,6 +58,7 @@ class Shell:
         fonts: Fonts,
         wake: Callable[[], None],
         keeper: Keeper | None = None,
+        folder: Path | None = None,
     ) -> None:
         self.stage: Stage = Stage(views)
         self.proportion = Proportion()
@@ -63,6 +66,8 @@ class Shell:
         self.toasts = Toasts()
         self.captures = Captures(wake)
         self.exports = Exports()
+        self.documents = Documents()
+        self.hints = Hints(folder)
         self.files = files
         self.help = False
         self._fonts = fonts
@@ -96,6 +101,9 @@ class Shell:
 
     def toggle_help(self) -> None:
         self.help = not self.help
+
+    def open_document(self, name: str) -> None:
+        self.documents.open(name)
 
     def toggle_full_screen(self) -> None:
         toggle_full_screen()
@@ -135,8 +143,8 @@ class Shell:
         )
 
     def escape(self, window: Host) -> None:
-        """Handle Escape: close what lies on top, end what takes long, clear the selection or the
-        mark (but not a lecture's on its stage), make small what is large; one of these at a time.
+        """Handle Escape: close what lies on top, end what takes long, make small what is large,
+        leave presentation, clear the selection or the mark; one of these at a time.
         """
         if self.palette.open:
             self.palette.open = False
@@ -150,6 +158,8 @@ class Shell:
             self._answered = describe(failure)
         elif self.exports.listing is not None:
             self.exports.listing = None
+        elif self.documents.shown:
+            self.documents.shown = ""
         elif self.help:
             self.help = False
         elif window.box is not None:
@@ -158,18 +168,14 @@ class Shell:
             self.files.cancel()
         elif self.exports.busy:
             self.exports.cancel()
-        elif chosen(window.state):
-            window.amend(choose(window.state, ()))
-        elif window.state.marked is not None and window.has_tools:
-            window.change(window.state.with_options(replace(window.state.options, marked=None)))
         elif self.stage.maximised:
             self.stage.maximise()
         elif window.state.preferences.presentation:
-            window.change(
-                window.state.with_options(
-                    replace(window.state.options.preferences, presentation=False)
-                )
-            )
+            window.edit(replace(window.state.preferences, presentation=False))
+        elif chosen(window.state):
+            window.amend(choose(window.state, ()))
+        elif window.state.marked is not None:
+            window.change(window.state.with_options(replace(window.state.options, marked=None)))
         else:
             self.toasts.clear()
 
@@ -212,8 +218,10 @@ class Shell:
             int(imgui.Key.escape), imgui.InputFlags_.route_global
         ):
             self.escape(window)
+        self.hints.draw(window, self.stage.rects)
         if self.help:
             self.help = help_sheet(self._fonts, __version__)
+        self.documents.draw()
         self.files.dialog.draw()
         self._waiting()
         self._messages(window)
@@ -333,7 +341,7 @@ class Shell:
         if stage.maximised:
             return stage.maximised
         if not stage.rects:
-            raise LucidaError("picture", "no view is shown", "show one in the menu View")
+            raise LucidaError("picture", "no view is shown", "show one in the menu Instruments")
         return stage.focused if stage.focused in stage.rects else next(iter(stage.rects))
 
     def _rect(self, view: str) -> Rect | None:

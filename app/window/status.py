@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from imgui_bundle import ImVec2, imgui
+from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.images.agreement import Verdict
 from lucida.app.ui import theme
@@ -15,7 +15,6 @@ from lucida.app.ui.lettering import fitting_words
 from lucida.renderer.camera.pixels import Indexing, Pixel
 from lucida.renderer.system.errors import describe
 
-VERDICTS = "agree", "disagree"  # what begins so is about both images
 DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it
 
 
@@ -25,9 +24,10 @@ class Status:
 
     size: of the full image. factor: the coarseness of the ray image, 1 for full, 0 for none;
     raster_factor: likewise. agreement: a text, empty while unknown; agrees: whether it is good
-    news, None if it is none. pixel: under the mouse, or marked; indexing: how it is counted.
-    loading: what is being opened, empty for nothing. brief: without times and sizes, for an
-    audience. awaited: an unknown agreement will be known; otherwise nothing is said of it.
+    news, None if it is none; differing: whether there are pixels to show. pixel: under the mouse,
+    or marked; indexing: how it is counted. loading: what is being opened, empty for nothing. brief:
+    without times and sizes, for an audience. awaited: an unknown agreement will be known; otherwise
+    nothing is said of it.
     """
 
     raster_s: float
@@ -44,6 +44,7 @@ class Status:
     loading: str = ""
     brief: bool = False
     awaited: bool = True
+    differing: bool = False
 
 
 def told(verdict: Verdict | None, failure: Exception | None) -> str:
@@ -51,17 +52,17 @@ def told(verdict: Verdict | None, failure: Exception | None) -> str:
     return verdict.text if verdict else describe(failure) if failure else ""
 
 
-def is_good_news(verdict: Verdict | None, failure: Exception | None, effects: bool) -> bool | None:
+def is_good_news(verdict: Verdict | None, failure: Exception | None) -> bool | None:
     """Return whether both images agree; None if nothing was compared."""
-    if failure is not None and verdict is None:
-        return False
-    if effects or verdict is None or verdict.comparison.nothing_hit:
-        return None
-    return verdict.unexplained == 0
+    if verdict is None:
+        return None if failure is None else False
+    return verdict.agrees
 
 
-def status_line(status: Status, fonts: theme.Fonts, room: float | None = None) -> None:
-    """Draw the line at the cursor. room: its width in the menu bar; None in the status bar."""
+def status_line(status: Status, fonts: theme.Fonts, room: float | None = None) -> bool:
+    """Draw the line at the cursor. Return True if the button that shows the differing pixels was
+    pressed. room: the line's width in the menu bar; None in the status bar.
+    """
     start, in_a_menu = imgui.get_cursor_pos_x(), room is not None
     if room is None:
         room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
@@ -83,11 +84,15 @@ def status_line(status: Status, fonts: theme.Fonts, room: float | None = None) -
     rights = right_texts(status)
     widths = [_width(text) for text, _ in parts]
     count, right = fitting(widths, list(map(_width, rights)), room, divider)
+    pressed = False
     for index, (text, color) in enumerate(parts[:count]):
         if index:
             _divider()
-        imgui.align_text_to_frame_padding()
         shown = fitting_words(text, room)  # of a single one that is wider than the window
+        if text == agreement and status.differing:
+            pressed = _link(shown, color)
+            continue
+        imgui.align_text_to_frame_padding()
         imgui.text_colored(color, shown)
         if shown != text:
             imgui.set_item_tooltip(text)
@@ -96,6 +101,7 @@ def status_line(status: Status, fonts: theme.Fonts, room: float | None = None) -
         color = theme.TEXT if status.loading else theme.legible(theme.MARK)
         imgui.text_colored(color, rights[right])
     imgui.pop_font()
+    return pressed
 
 
 def time_texts(status: Status) -> list[str]:
@@ -114,10 +120,7 @@ def agreement_text(status: Status) -> str:
 
     The words name the two images, since other views show pairs that differ on purpose.
     """
-    if not status.awaited:
-        return ""
-    verdict = status.agreement or "agree: ..."
-    return f"raster and ray {verdict}" if verdict.startswith(VERDICTS) else verdict
+    return (status.agreement or "raster and ray: ...") if status.awaited else ""
 
 
 def right_texts(status: Status) -> list[str]:
@@ -171,6 +174,24 @@ def ray_text(status: Status) -> str:
 
 def _width(text: str) -> float:
     return imgui.calc_text_size(text).x
+
+
+def _link(text: str, color: ImVec4) -> bool:
+    """Draw underlined text that can be pressed, as wide as the text alone."""
+    imgui.push_style_var(
+        imgui.StyleVar_.frame_padding, ImVec2(0, imgui.get_style().frame_padding.y)
+    )
+    imgui.push_style_color(imgui.Col_.button, theme.UNSEEN)
+    imgui.push_style_color(imgui.Col_.text, color)
+    pressed = imgui.button(f"{text}###differing")
+    imgui.pop_style_color(2)
+    imgui.pop_style_var()
+    low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
+    foot = high.y - imgui.get_style().frame_padding.y
+    draw = imgui.get_window_draw_list()
+    draw.add_line(ImVec2(low.x, foot), ImVec2(high.x, foot), theme.u32(color), 1.0)
+    imgui.set_item_tooltip("Show these pixels, in the view Compare")
+    return bool(pressed)
 
 
 def _divider() -> None:

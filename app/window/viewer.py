@@ -32,6 +32,7 @@ from lucida.app.window.platform import (
     Platform,
     begin_letters,
     create_context,
+    default_size,
     flush_opengl,
     lock_letters,
     set_size,
@@ -48,7 +49,6 @@ from lucida.renderer.system import compile_note
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
 
-DEFAULT_SIZE = (1280, 720)
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
 PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the comparison
 NULL_FPS = 60.0
@@ -84,7 +84,7 @@ class WindowRun:
         if start is not None:
             self._take(start)
         self._platform = platform
-        self._size = size or DEFAULT_SIZE
+        self._size = size or default_size(platform)
         self._canvas: WindowCanvas | None = None
         self._keys: KeyFrames | None = None
         self._focusing = Focusing()
@@ -164,7 +164,9 @@ class WindowRun:
     def _parameters(self, state: AppState, remember: bool, fresh: bool) -> hello_imgui.RunnerParams:
         params = hello_imgui.RunnerParams()
         params.app_window_params.window_title = title(state.scene)
-        params.app_window_params.window_geometry.size = self._size
+        geometry = params.app_window_params.window_geometry
+        geometry.size = self._size
+        geometry.window_size_measure_mode = hello_imgui.WindowSizeMeasureMode.screen_coords
         params.app_window_params.hidden = self._platform.has_display  # until there is a picture
         _settings(params, remember, fresh)
         docking = hello_imgui.DefaultImGuiWindowType.provide_full_screen_dock_space

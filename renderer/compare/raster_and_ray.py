@@ -107,6 +107,11 @@ class Comparison:
         return self.size[0] * self.size[1] - self.outside
 
     @property
+    def differing(self) -> int:
+        """The number of pixels that do not agree, explained or not."""
+        return self.pixels - self.agree
+
+    @property
     def worst(self) -> Pixel:
         """(row, column) of the largest colour difference."""
         return self.errors["color"].worst
@@ -133,10 +138,9 @@ class Comparison:
         width, height = self.size
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
         color = self.errors["color"]
-        nothing = [f"nothing is hit in either image: {self.nothing_hit}"] * bool(self.nothing_hit)
         return "\n".join(
             [
-                *nothing,
+                *([self.verdict()] if self.nothing_hit and not self.unexplained else []),
                 f"{width}x{height}: {self.agree} of {self.pixels} pixels agree"
                 + (f"; {self.outside} are outside of the lens" if self.outside else ""),
                 f"explained:   {sum(self.explained.values())}" + (f" ({causes})" if causes else ""),
@@ -152,16 +156,19 @@ class Comparison:
             ]
         )
 
-    def summary_short(self) -> str:
-        """Return a summary for a status line."""
+    def verdict(self) -> str:
+        """Return the result as one clause, such as "all but 4 edge pixels agree"."""
         if self.unexplained:
-            return f"disagree: {_pixels(self.unexplained)}"
+            verb = "differs" if self.unexplained == 1 else "differ"
+            return f"{_pixels(self.unexplained)} {verb} without an explanation"
         if self.nothing_hit:
-            return f"nothing is hit: {self.nothing_hit}"
-        edges = sum(self.explained.values())
-        if not edges:
-            return "agree: all pixels"
-        return f"agree: all but {_pixels(edges, 'edge ')}"
+            return f"nothing is hit in either image: {self.nothing_hit}"
+        causes = [name for name, count in self.explained.items() if count]
+        if not causes:
+            return "all pixels agree"
+        kind = f"{causes[0]} " if len(causes) == 1 else ""
+        names = f" ({', '.join(causes)})" if len(causes) > 1 else ""
+        return f"all but {_pixels(sum(self.explained.values()), kind)} agree{names}"
 
     def difference_image(self) -> NDArray[np.uint8]:
         """Return the raster image darkened, with differing pixels in their cause's colour

@@ -12,13 +12,12 @@ from typing import Any
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
-from lucida.renderer.files.tables import parse_toml
+from lucida.renderer.files.tables import MARK, parse_toml
 from lucida.renderer.files.toml_writing import toml_text, value_text
 from lucida.renderer.scene.origin import Keys
 from lucida.renderer.system.errors import LucidaError
 
 LISTS = ("objects", "lights")
-MARK = "\ufeff"
 _COMMENT = r"[ \t]*#[^\n]*\n"
 _HEADER = r"^[ \t]*\[[^\n]*\n"
 # The comments that stand directly above a header, and those above them after a blank line.

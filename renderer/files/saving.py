@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import copy
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,7 @@ from lucida.renderer.scene.origin import Origin
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError, under
 
-IMAGES = ("texture", "metal")  # fields of a material that name files
+FILES = ("file", "texture", "metal")  # keys whose text names a file
 
 
 def save_scene(path: str | Path, scene: Scene, view: View | None = None) -> None:
@@ -91,7 +91,7 @@ def scene_tables(scene: Scene, folder: Path, view: View | None = None) -> dict[s
     origin = scene.origin
     if origin is not None and origin.tables is not None:
         tables = {"name": scene.name, **relocated(origin.tables, origin.folder, folder)}
-        _check_images(_file_fields(tables))
+        _check_images(tables)
     else:
         tables = {
             "name": scene.name,
@@ -153,7 +153,7 @@ def material_table(material: Material, folder: Path) -> dict[str, Any]:
         table["cutout"] = material.cutout
     if material.single_sided:
         table["single_sided"] = True
-    _check_images(_images(table))
+    _check_images(table)
     return table
 
 
@@ -164,40 +164,31 @@ def _image_path(field: str, file: Path | None, folder: Path) -> str:
     return path_text(file, folder)
 
 
-def _file_fields(tables: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
-    """Yield for each file that a scene file names its place, the table it is in, and its key
-    there. The place of a model is "".
+def _files(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, Any], str]]:
+    """Yield for each file that a scene file's tables name its place, the table that it is in, and
+    its key there.
     """
-    materials = [(f"materials.{name}", m) for name, m in tables.get("materials", {}).items()]
-    for number, entry in enumerate(tables.get("objects", ())):
-        if "file" in entry:
-            yield "", entry, "file"
-        materials.append((f"objects[{number}].material", entry.get("material")))
-    for where, material in materials:
-        yield from _images(material, f"{where}.")
+    for key, part in value.items() if isinstance(value, dict) else enumerate(value):
+        place = f"{where}[{key}]" if isinstance(key, int) else f"{where}.{key}".lstrip(".")
+        if isinstance(part, dict | list):
+            yield from _files(part, place)
+        elif key in FILES and isinstance(part, str):
+            yield place, value, key
 
 
-def _images(material: Any, where: str = "") -> Iterator[tuple[str, dict[str, Any], str]]:
-    for field in IMAGES if isinstance(material, dict) else ():
-        if isinstance(given := material.get(field), dict) and "file" in given:
-            yield f"{where}{field}", given, "file"
-        elif isinstance(given, str):
-            yield f"{where}{field}", material, field
-
-
-def _check_images(found: Iterable[tuple[str, dict[str, Any], str]]) -> None:
+def _check_images(tables: dict[str, Any]) -> None:
     """Check that images are below the folder of their scene file, which may name no others."""
-    for field, table, key in found:
-        if field and Path(table[key]).is_absolute():
+    for place, table, key in _files(tables):
+        if table.get("type") != "model" and Path(table[key]).is_absolute():
             raise LucidaError(
-                field,
+                place.removesuffix(".file"),
                 f"{Path(table[key]).name!r} does not lie in the new file's folder",
                 "save the scene where its images are",
             )
 
 
 def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
-    """Return A light as one of [[lights]]."""
+    """Return a light as one of [[lights]]."""
     color = {"color": list(light.color)}
     if isinstance(light, PointLight):
         return {"type": "point", "position": list(light.position), **color}
@@ -211,7 +202,7 @@ def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, 
     if new == old:
         return tables
     found = copy.deepcopy(tables)
-    for _, table, key in _file_fields(found):
+    for _, table, key in _files(found):
         table[key] = path_text(old / table[key], new)
     return found
 

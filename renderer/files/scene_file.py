@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.files.models.models import ModelFile
 from lucida.renderer.files.outside import check_inside
 from lucida.renderer.files.reading import check_count, decode_text, naming, read_file, suggestion
-from lucida.renderer.files.scene_images import SceneImages
-from lucida.renderer.files.scene_parts import SceneParts, check_mapped, is_textured, made_triangles
+from lucida.renderer.files.scene_parts import SceneParts, made_triangles, unmapped
 from lucida.renderer.files.schema import (
     AnyLight,
     AnyObject,
@@ -64,30 +64,29 @@ def new_keys(count: int) -> tuple[int, ...]:
 def read_scene_file(path: Path) -> Scene:
     """Return the scene in a file. Raises LucidaError naming the file, the field and the remedy."""
     data = read_file(path, TOML_BYTES)
-    scene = scene_from_toml(decode_text(data, str(path)), path.parent, str(path), path.stem)
-    assert scene.origin is not None
-    scene.origin.saved.text = data.decode()  # with its byte order mark
-    return scene
+    decode_text(data, str(path))
+    return scene_from_toml(data.decode(), path.parent, str(path), path.stem)
 
 
 def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -> Scene:
-    """Return the scene in a text.
+    """Return the scene in a text, which may begin with a byte order mark.
 
     folder: the start of its paths.
     source: the file, for errors.
     name: the scene's, if the file has none.
     """
     with naming(source):
-        scene = scene_from_tables(parse_toml(text), folder, name)
-    assert scene.origin is not None
-    scene.origin.saved.text = text
-    return scene
+        return scene_from_tables(parse_toml(text), folder, name, text)
 
 
-def scene_from_tables(tables: dict[str, Any], folder: Path, name: str = "") -> Scene:
-    """Return the scene of a scene file's tables, for scenes inside other files."""
+def scene_from_tables(
+    tables: dict[str, Any], folder: Path, name: str = "", text: str = ""
+) -> Scene:
+    """Return the scene of a scene file's tables. text: the file's own; "" for tables inside
+    another file.
+    """
     keys = _keys_of(tables, "objects", ()), _keys_of(tables, "lights", framing.LIGHTS)
-    return _scene(Origin("", tables, folder), keys, name, SavedFile(None, "", tables, keys))
+    return _scene(Origin("", tables, folder), keys, name, SavedFile(None, text, tables, keys))
 
 
 def _keys_of(tables: dict[str, Any], kind: str, default: Sequence[Any]) -> tuple[int, ...]:
@@ -154,8 +153,6 @@ class _Builder:
     """Builds the objects of a scene. What has not changed is taken from the scene before."""
 
     def __init__(self, tables: SceneFile, origin: Origin) -> None:
-        known = (entry.material for entry in origin.entries if entry.material is not None)
-        self._images = SceneImages(origin.folder, known)
         self._parts = SceneParts(origin.folder, origin.entries)
         self._folder = origin.folder
         self._old = {entry.key: entry for entry in origin.entries}
@@ -211,20 +208,21 @@ class _Builder:
             sphere = Sphere(fields.center, fields.radius)
             alone = SceneObject(sphere, material or Material(), fields.name, fields.hidden)
             return FileEntry(key, table, fields, material, (), (alone,))
-        views: tuple[NamedView, ...] = ()
-        notes: tuple[str, ...] = ()
+        has_image = material is not None and material.image is not None
         path, single_sided = "", None
-        is_model = isinstance(fields, ModelTable)
         if isinstance(fields, ModelTable):
-            model = self._parts.model(fields.file)
             path, single_sided = self._parts.path(fields.file), fields.single_sided
-            made, views, notes = model.objects, model.views, model.notes
-            if model.lights:
-                notes += (f"{path}: lights: not shown; a scene file has its own",)
-            if is_textured(material):
-                check_mapped(fields, made)
+            model = self._parts.model(fields.file)
+            if has_image and (part := unmapped(model.objects)) is not None:
+                name = "/".join(filter(None, (fields.name, part.name)))
+                problem = f"has a texture, and {name!r} of {fields.file!r} no texture coordinates"
+                remedy = "export the model with them (UVs), or give a material without texture"
+                raise LucidaError("material", problem, remedy)
         else:
-            made = self._parts.mesh(fields, material)
+            model = ModelFile(self._parts.mesh(fields, has_image))
+        made, notes = model.objects, model.notes
+        if model.lights:
+            notes += (f"{path}: lights: not shown; a scene file has its own",)
         was = self._old.get(key)
         if was is not None and was.made is made and _place(was.fields) == _place(fields):
             placed = [entry.shape for entry in was.objects]
@@ -234,16 +232,18 @@ class _Builder:
             placed = [shapes.transformed(mesh, matrix) for mesh in meshes]
         objects = []
         for part, shape in zip(made, placed, strict=True):
-            name = fields.name
-            if len(made) > 1 or not name:
-                name = f"{name}/{part.name}" if name and part.name else name or part.name
-            shown = material or (part.material if is_model else Material())
+            name = fields.name or part.name
+            if fields.name and part.name and len(made) > 1:
+                name = f"{fields.name}/{part.name}"
+            shown = material or part.material
             if single_sided is not None:
                 shown = replace(shown, single_sided=single_sided)
             # A part that its own material cuts away altogether is hidden as it is read.
-            is_gone = is_model and material is None and part.hidden
+            is_gone = material is None and part.hidden
             objects.append(SceneObject(shape, shown, name, fields.hidden or is_gone))
-        return FileEntry(key, table, fields, material, made, tuple(objects), views, path, notes)
+        return FileEntry(
+            key, table, fields, material, made, tuple(objects), model.views, path, notes
+        )
 
     def _material_of(self, value: str | MaterialTable | None) -> Material | None:
         if isinstance(value, MaterialTable):
@@ -260,9 +260,9 @@ class _Builder:
         if (given := table.checker) is not None:
             with under("checker"):
                 checker = Checker(parse_color("diffuse", given.diffuse), given.size)
-        images, has_opacity = self._images, table.cutout is not None
-        texture = None if table.texture is None else images.texture(table.texture, has_opacity)
-        metal = None if table.metal is None else images.metal(table.metal)
+        parts, has_opacity = self._parts, table.cutout is not None
+        texture = None if table.texture is None else parts.texture(table.texture, has_opacity)
+        metal = None if table.metal is None else parts.metal(table.metal)
         default = (1.0, 1.0, 1.0) if texture or metal else Material().diffuse
         return Material(
             default if table.diffuse is None else parse_color("diffuse", table.diffuse),

@@ -1,6 +1,7 @@
-"""A scene file's objects before they are placed: shapes, and models' parts.
+"""The shapes, models and images of a scene file, before its objects are placed.
 
-Each is built or read once, or taken from the scene before a change.
+Each is made or read once, or taken from the scene before a change. A fault is an error of the
+file, which names the field.
 """
 
 from __future__ import annotations
@@ -8,7 +9,9 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Hashable
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
+
+import numpy as np
 
 from lucida.renderer.files.models.models import ModelFile, load_model
 from lucida.renderer.files.schema import (
@@ -17,45 +20,62 @@ from lucida.renderer.files.schema import (
     CylinderTable,
     DiskTable,
     MeshTable,
+    MetalTable,
     ModelTable,
     ObjectTable,
     RectangleTable,
+    TextureTable,
     TorusTable,
 )
+from lucida.renderer.files.texture_images import FoundImage, inner_path, read_image
 from lucida.renderer.scene import shapes
-from lucida.renderer.scene.limits import SEGMENTS
-from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.limits import SEGMENTS, TEXTURES
+from lucida.renderer.scene.metal import EVERYWHERE, Metal
 from lucida.renderer.scene.model import Mesh, SceneObject
 from lucida.renderer.scene.origin import FileEntry
 from lucida.renderer.scene.shape_coordinates import on_box, on_cylinder, on_plane, on_torus
-from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.scene.texture import Texture
+from lucida.renderer.system.errors import LucidaError, under
 
 # For each shape the function that makes it, the one that adds texture coordinates, and its number
 # of triangles per segment (and side of a tube).
-_SHAPES: dict[type[ObjectTable], tuple[Callable[..., Mesh], Callable[[Mesh], Mesh], int]] = {
+_SHAPES: dict[type[ObjectTable], tuple[Callable[..., Mesh], Callable[..., Mesh], int]] = {
     BoxTable: (shapes.box, on_box, 12),
     RectangleTable: (shapes.rectangle, on_plane, 2),
     DiskTable: (shapes.disk, on_plane, 1),
     CylinderTable: (shapes.cylinder, on_cylinder, 4),
     ConeTable: (shapes.cone, on_cylinder, 2),
-    TorusTable: (shapes.torus, on_plane, 2),
+    TorusTable: (shapes.torus, on_torus, 2),
 }
+Image = TypeVar("Image", bound=Texture | Metal)
 
 
 class SceneParts:
-    """Shapes and models before they are placed. entries: of the scene before a change."""
+    """The parts of one scene file in a folder.
+
+    entries: of the scene before a change. Equal parts stay the same values, so that renderers
+    notice only what changed.
+    """
 
     def __init__(self, folder: Path, entries: tuple[FileEntry, ...]) -> None:
         self._folder = folder
         self._models: dict[str, ModelFile] = {}  # by path
         self._meshes: dict[Hashable, tuple[SceneObject, ...]] = {}
+        self._images: dict[Hashable, Any] = {}
+        self._pixels: dict[tuple[Path | None, bool], FoundImage] = {}
         for entry in entries:
             if isinstance(entry.fields, ModelTable):
                 found = ModelFile(entry.made, entry.views, entry.notes)
                 self._models.setdefault(entry.path, found)
             elif entry.made:
-                is_mapped = _unmapped(entry.made) is None
+                is_mapped = unmapped(entry.made) is None
                 self._meshes.setdefault(_key(entry.fields, is_mapped), entry.made)
+            if (known := entry.material) is not None:
+                for image in (known.texture, known.metal):
+                    if image is not None:
+                        self._kept(image)
+                        pixels = FoundImage(image.texels, image.file)
+                        self._pixels[image.file, image.texels.shape[2] == 4] = pixels
 
     def path(self, file: str) -> str:
         return os.path.abspath(self._folder / file)
@@ -70,20 +90,46 @@ class SceneParts:
                 raise LucidaError("file", f"{where}: {error.problem}", error.remedy) from None
         return self._models[path]
 
-    def mesh(self, table: MeshTable, material: Material | None) -> tuple[SceneObject, ...]:
-        """Return a shape, with texture coordinates if the material has a texture."""
-        is_mapped = is_textured(material)
+    def mesh(self, table: MeshTable, is_mapped: bool) -> tuple[SceneObject, ...]:
+        """Return a shape. is_mapped: with texture coordinates."""
         key = _key(table, is_mapped)
         if key not in self._meshes:
             make, mapped, _ = _SHAPES[type(table)]
             mesh = make(**_own_fields(table))
             if is_mapped:
-                if isinstance(table, TorusTable):
-                    mesh = on_torus(mesh, table.radius)
-                else:
-                    mesh = mapped(mesh)
+                mesh = mapped(mesh, table.radius) if isinstance(table, TorusTable) else mapped(mesh)
             self._meshes[key] = (SceneObject(mesh),)
         return self._meshes[key]
+
+    def texture(self, given: str | TextureTable, has_opacity: bool = False) -> Texture:
+        """Return a texture. Raises LucidaError, whose field is below a material."""
+        table = TextureTable(file=given) if isinstance(given, str) else given
+        wrap = (table.wrap,) * 2 if isinstance(table.wrap, str) else table.wrap
+        scale = (table.scale,) * 2 if isinstance(table.scale, int | float) else table.scale
+        with under("texture"):
+            pixels, file = self._image(table.file, has_opacity)
+            return self._kept(Texture(pixels, wrap, scale, table.offset, file, table.rotate_deg))
+
+    def metal(self, given: str | MetalTable) -> Metal:
+        """Return a metal. Raises LucidaError, whose field is below a material."""
+        table = MetalTable(file=given) if isinstance(given, str) else given
+        with under("metal"):
+            pixels, file = self._image(table.file) if table.file else (EVERYWHERE, None)
+            return self._kept(Metal(pixels, table.metalness, table.roughness, file))
+
+    def _kept(self, image: Image) -> Image:
+        """Return the equal image that is known, or else this one."""
+        values = (id(v) if isinstance(v, np.ndarray) else v for v in vars(image).values())
+        kept: Image = self._images.setdefault((type(image), *values), image)
+        return kept
+
+    def _image(self, name: str, has_opacity: bool = False) -> FoundImage:
+        key = inner_path(name, self._folder).absolute(), has_opacity
+        if key not in self._pixels:
+            if len(self._pixels) >= TEXTURES:
+                raise LucidaError("", f"the scene has more than {TEXTURES} images", "use fewer")
+            self._pixels[key] = read_image(name, self._folder, has_opacity)
+        return self._pixels[key]
 
 
 def made_triangles(table: ObjectTable) -> int:
@@ -97,19 +143,10 @@ def made_triangles(table: ObjectTable) -> int:
     return count
 
 
-def is_textured(material: Material | None) -> bool:
-    return material is not None and material.image is not None
-
-
-def check_mapped(table: ModelTable, made: tuple[SceneObject, ...]) -> None:
-    """Check that a model's parts can show a texture."""
-    if (part := _unmapped(made)) is not None:
-        name = f"{table.name}/{part.name}" if table.name and part.name else table.name
-        raise LucidaError(
-            "material",
-            f"has a texture, and {name or part.name!r} of {table.file!r} no texture coordinates",
-            "export the model with them (UVs), or give a material without texture",
-        )
+def unmapped(made: tuple[SceneObject, ...]) -> SceneObject | None:
+    """Return the first part without texture coordinates; None if all have them."""
+    meshes = (part for part in made if isinstance(part.shape, Mesh) and part.shape.uv is None)
+    return next(meshes, None)
 
 
 def _own_fields(table: MeshTable) -> dict[str, Any]:
@@ -121,9 +158,3 @@ def _own_fields(table: MeshTable) -> dict[str, Any]:
 def _key(table: MeshTable, is_mapped: bool) -> Hashable:
     """Return a key that is equal for tables of the same shape."""
     return type(table), is_mapped, *_own_fields(table).values()
-
-
-def _unmapped(made: tuple[SceneObject, ...]) -> SceneObject | None:
-    """Return the first part without texture coordinates."""
-    meshes = (part for part in made if isinstance(part.shape, Mesh) and part.shape.uv is None)
-    return next(meshes, None)

@@ -15,6 +15,7 @@ from lucida.renderer.files.reading import suggestion
 from lucida.renderer.scene.limits import KEY_PARTS
 from lucida.renderer.system.errors import LucidaError
 
+MARK = "\ufeff"  # of the byte order, as Windows writes it
 VERSION = 1  # of the formats of scene and view files: their key `lucida`
 
 _KEY_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
@@ -35,6 +36,7 @@ def parse_toml(text: str) -> dict[str, Any]:
 
     A key `lucida` above VERSION is refused here, before fields that this program cannot know.
     """
+    text = text.removeprefix(MARK)
     # The parser takes quadratic time for keys of many parts.
     if long_key := _LONG_KEY.search(text):
         line = text.count("\n", 0, long_key.start()) + 1
@@ -109,22 +111,18 @@ def explained(message: str, kind: Any = None, prefix: str = "") -> LucidaError:
     field = f"{prefix}.{path}" if prefix and path and path[0] != "[" else prefix + path
     kinds = _types_at(kind, path)
 
-    if unknown := re.fullmatch(r"Object contains unknown field `(.*)`", text, re.DOTALL):
-        name = unknown[1]
-        where = f"{field}.{name}" if field else name
-        return LucidaError(where, "is unknown", suggestion(name, _fields(kinds)))
-    if missing := re.fullmatch(r"Object missing required field `(.*)`", text):
-        return LucidaError(
-            f"{field}.{missing[1]}" if field else missing[1], "is missing", "give it"
-        )
-    if invalid := re.fullmatch(r"Invalid value '(.*)'", text, re.DOTALL):
-        tables = _structs(_types_at(kind, path.rpartition(".")[0]))
-        tags = [str(table.__struct_config__.tag) for table in tables]
-        return LucidaError(field, f"{invalid[1]!r} is unknown", suggestion(invalid[1], tags))
-    if choice := re.fullmatch(r"Invalid enum value (.*)", text, re.DOTALL):
+    if own := re.fullmatch(r"Object (.*) field `(.*)`", text, re.DOTALL):
+        error = LucidaError(own[2], "is missing", "give it")
+        if own[1] == "contains unknown":
+            error = LucidaError(own[2], "is unknown", suggestion(own[2], _fields(kinds)))
+        return error.within(field)
+    if choice := re.fullmatch(r"Invalid (enum )?value (.*)", text, re.DOTALL):
         choices = [str(c) for k in kinds if get_origin(k) is Literal for c in get_args(k)]
-        remedy = suggestion(choice[1].strip("'"), choices)
-        return LucidaError(field, f"{choice[1]} is unknown", remedy)
+        if not choice[1]:  # the tag that chooses one of several tables
+            tables = _structs(_types_at(kind, path.rpartition(".")[0]))
+            choices = [str(table.__struct_config__.tag) for table in tables]
+        remedy = suggestion(choice[2].strip("'"), choices)
+        return LucidaError(field, f"{choice[2]} is unknown", remedy)
     if length := re.fullmatch(r"Expected `array` of length (\d+), got (\d+)", text):
         count = "1 entry" if length[2] == "1" else f"{length[2]} entries"
         return LucidaError(field, f"has {count}", f"give {length[1]}")

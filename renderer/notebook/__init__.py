@@ -13,8 +13,6 @@ if TYPE_CHECKING:
     from lucida.renderer.notebook.widget import Explorer
     from lucida.renderer.scene import Scene
 
-INSTALL = "pip install 'camera-lucida[notebook]'"
-
 
 def explore(
     scene: Scene | str | Path,
@@ -34,5 +32,8 @@ def explore(
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in ("anywidget", "ipywidgets", "traitlets"):
             raise
-        raise LucidaError("explore", f"{error.name} is not installed", INSTALL) from None
+        from lucida.renderer.raster.packages import installing
+
+        remedy = installing("anywidget")
+        raise LucidaError("explore", f"{error.name} is not installed", remedy) from None
     return Explorer(scene, camera, size, shadows, mirror_depth)

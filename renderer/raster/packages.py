@@ -3,6 +3,17 @@
 from __future__ import annotations
 
 import sys
+from importlib.util import find_spec
+
+
+def installing(packages: str) -> str:
+    """Return the command that installs packages for this interpreter, wherever it is from: pip, uv
+    or pipx.
+    """
+    if find_spec("pip") is None:  # as uv makes environments
+        return f"uv pip install --python {sys.executable} {packages}"
+    return f"{sys.executable} -m pip install {packages}"
+
 
 SYSTEMS = ("debian", "fedora", "arch", "macos", "windows", "other")
 
@@ -35,9 +46,9 @@ _REMEDIES = {
         "arch": "uncomment en_US.UTF-8 in /etc/locale.gen and run locale-gen",
         "other": "add the locale en_US.UTF-8",
     },
-    "films": {"other": "pip install 'camera-lucida[film]'"},
-    "cluster": {"other": "pip install 'camera-lucida[film]'"},
-    "widget": {"other": "pip install 'camera-lucida[notebook]'"},
+    "films": {"other": installing("av distributed")},
+    "cluster": {"other": installing("av distributed")},
+    "widget": {"other": installing("anywidget")},
     "command": {"other": "add it to the PATH (pipx ensurepath, uv tool update-shell)"},
     "imports": {"other": "rename these files, or start Python and notebooks in another folder"},
 }

@@ -68,4 +68,10 @@ def check(context: moderngl.Context, doing: str) -> None:
         raise LucidaError(
             "OpenGL", f"no memory for {doing}", "choose a smaller image or a smaller model"
         )
+    if error == "GL_UNKNOWN_ERROR":  # moderngl's word for GL_CONTEXT_LOST
+        raise LucidaError(
+            "OpenGL",
+            f"the context is lost at {doing}",
+            "start the program again; update the graphics driver if that recurs",
+        )
     raise LucidaError("OpenGL", f"{error} at {doing}", "update the graphics driver")

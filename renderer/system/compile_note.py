@@ -12,6 +12,7 @@ EACH_TIME = (
 )
 
 _note = ""
+_progress = ""
 
 
 def begin(kept: bool) -> None:
@@ -28,6 +29,17 @@ def begin(kept: bool) -> None:
 def is_kept() -> bool:
     """Return True if the next run will find everything that was compiled in this one."""
     return _note != EACH_TIME
+
+
+def report(done: int, count: int) -> None:
+    """Report how many of the parts have been compiled."""
+    global _progress
+    _progress = f"{done} of {count} parts"
+
+
+def progress() -> str:
+    """Return how many of how many parts have been compiled; empty before the first report."""
+    return _progress
 
 
 def note() -> str:

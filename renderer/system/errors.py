@@ -86,6 +86,11 @@ def one_line(text: str) -> str:
     return visible(" ".join(text.split()))
 
 
+def counted(*counts: tuple[int, str]) -> str:
+    """Return counts as text: `2 objects, 1 light`."""
+    return ", ".join(f"{count} {what}{'s' * (count != 1)}" for count, what in counts)
+
+
 def quoted(text: str) -> str:
     """Return a name on one line, between quotation marks."""
     return f"'{one_line(text)}'"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import gc
 import os
 import sys
@@ -53,7 +54,13 @@ def _fork(part: str) -> int:
 
 def _compile(part: str) -> int:
     """Compile a part. Return the exit status."""
+    from lucida.renderer.trace.compile.cache_folder import cache_folder
     from lucida.renderer.trace.compile.compiled import is_cached
 
     compile_part(part)
-    return 0 if is_cached() else 1
+    folder = cache_folder()
+    if folder is None or not is_cached():
+        return 1
+    with contextlib.suppress(OSError):
+        (folder / f"{part}.done").touch()
+    return 0

@@ -41,6 +41,8 @@ def precompile(parts: Sequence[str], is_closed: Callable[[], bool]) -> None:
                 processes.append((start_child(python, compile_child.__name__, *group), group))
         compile_child.import_compiler()  # what loading needs, meanwhile
         while any(process.poll() is None for process, _ in processes) and not is_closed():
+            done = sum((folder / f"{part}.done").exists() for part in missing)
+            compile_note.report(done, len(missing))
             time.sleep(_POLL_S)
     finally:
         for process, group in processes:

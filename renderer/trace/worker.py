@@ -41,10 +41,10 @@ class Worker:
         self._queue: queue.SimpleQueue[tuple[Scene, Work] | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._tasks: weakref.WeakSet[Work] = weakref.WeakSet()
-        self._current: Work | None = None
+        self.current: Work | None = None
         self._newest: Scene | None = None  # of the last task
         self._thread: threading.Thread | None = None
-        self._pid = os.getpid()  # the thread's
+        self.pid = os.getpid()  # the thread's
         self._closed = False
 
     def submit(self, scene: Scene, task: Work) -> None:
@@ -65,7 +65,7 @@ class Worker:
                 self._thread = threading.Thread(
                     target=self._serve, name="lucida-trace-0", daemon=True
                 )
-                self._pid = os.getpid()
+                self.pid = os.getpid()
                 self._thread.start()
                 _workers.add(self)
 
@@ -83,7 +83,7 @@ class Worker:
         """
         self._closed = True
         self._queue.put(None)
-        current = self._current
+        current = self.current
         if current is not None:
             current.stop()
 
@@ -94,16 +94,16 @@ class Worker:
 
     def _check_process(self) -> None:
         if self._thread is not None:
-            check_not_forked(self._pid, "tracer", "has begun its work")
+            check_not_forked(self.pid, "tracer", "has begun its work")
         elif os.getpid() != _imported_pid:
             for worker in list(_workers):
-                if worker._current is not None:
-                    check_not_forked(worker._pid, "tracer", "another one was at work")
+                if worker.current is not None:
+                    check_not_forked(worker.pid, "tracer", "another one was at work")
 
     def _serve(self) -> None:
         while (item := self._queue.get()) is not None:
             scene, task = item
-            self._current = task
+            self.current = task
             try:
                 self._run(scene, task)
             except AbandonedError:
@@ -113,7 +113,7 @@ class Worker:
             except BaseException as error:
                 task.fail(error)
             del item, task  # frees their buffers while waiting for the next task
-            self._current = None
+            self.current = None
         self._team.close()
         self._engine = self._prepared = None
 
@@ -175,7 +175,7 @@ _workers: weakref.WeakSet[Worker] = weakref.WeakSet()
 
 @atexit.register
 def _end_all() -> None:
-    workers = [worker for worker in _workers if worker._pid == os.getpid()]
+    workers = [worker for worker in _workers if worker.pid == os.getpid()]
     for worker in workers:
         worker.close()
     for worker in workers:

@@ -17,7 +17,8 @@ from lucida import __version__
 
 ROOT = Path(__file__).parents[2]
 # Files of all these kinds are our own, under LICENSE: a font or a model would bring its own.
-KINDS = {"py", "toml", "frag", "vert", "glsl", "js", "css", "html", "png"}
+KINDS = {"py", "toml", "frag", "vert", "glsl", "js", "css", "html", "png", "md"}
+READ_IN_THE_WINDOW = {".md", ".png"}  # of docs/
 
 
 def run(*command, **options):
@@ -72,8 +73,13 @@ def environment():
 
 
 def of_the_packages():
+    documents = {
+        f"lucida/docs/{path.name}"
+        for path in (ROOT / "docs").iterdir()
+        if path.suffix in READ_IN_THE_WINDOW
+    }
     links = {f"lucida/{name}": ROOT / name for name in ("app", "renderer", "shaders")}
-    return {
+    return documents | {
         f"{place}/{path.relative_to(folder).as_posix()}"
         for place, folder in {"lucida": ROOT / "lucida", **links}.items()
         for path in folder.rglob("*")
@@ -97,7 +103,7 @@ def test_the_sdist_builds_it_and_has_no_tests(built):
     (sdist,) = built.glob("*.tar.gz")
     with tarfile.open(sdist) as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    assert of_the_packages() <= names
+    assert {name.replace("lucida/docs", "docs") for name in of_the_packages()} <= names
     assert {"LICENSE", "README.md", "CHANGELOG.md", "pyproject.toml"} <= names
     assert not {name for name in names if name.startswith((".ci", ".github", "tests"))}
 

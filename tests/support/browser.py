@@ -30,6 +30,12 @@ def chromium() -> Iterator[Any]:
         browser.close()
 
 
+def axe_script() -> str:
+    """Return axe-core, which finds what keeps people from using a page."""
+    package = pytest.importorskip("axe_playwright_python")
+    return Path(package.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
+
+
 class Page:
     """An open page. problems: errors, console messages, and requests that left."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import get_args, get_type_hints
 
 from option_changes import with_options
@@ -37,20 +37,18 @@ def with_content(d: Driver) -> AppState:
     )
 
 
-def views_in_turn(d: Driver) -> Iterator[str]:
-    """Shows every view alone, and every page of those that have several."""
+def views_in_turn(d: Driver, pages: Sequence[str] = PAGES) -> Iterator[str]:
+    """Show every view alone, and the laboratory's pages."""
     stage = d.stage
     before = {view.name for view in stage.shown}
-    pages = {LABORATORY: ("laboratory", "page", PAGES)}
     for name in stage.views:
-        options, field, choices = pages.get(name, ("", "", ("",)))
         stage.show(name)
         stage.maximise(name)
-        for choice in choices:
-            if field:
-                d.change(**{options: {field: choice}})
+        for page in pages if name == LABORATORY else ("",):
+            if page:
+                d.change(laboratory={"page": page})
             d.frames(6)
             d.until(lambda name=name: stage.views[name].settled)
-            yield f"{name} {choice}"
+            yield f"{name} {page}"
         stage.maximise()
         stage.show(name, name in before)

@@ -234,7 +234,7 @@ class Driver:
         self.settle()
         verdict = self.renderers.agreement.verdict_on(self.renderers.request(self.state))
         assert verdict is not None
-        assert verdict.unexplained == 0, verdict.text
+        assert verdict.comparison.unexplained == 0, verdict.text
         for attempt in range(ATTEMPTS):
             raster, ray = self.images()
             size = self.renderers.size

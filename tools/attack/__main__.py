@@ -25,6 +25,7 @@ MINUTES = {
     "mutated_files": 2,
     "mutations": 6,
     "platforms": 3,
+    "properties": 4,
     "random_events": 4,
     "random_views": 2,
 }

@@ -268,6 +268,20 @@ class Attack:
         assert not self.failed, self.failed
         assert not self.d.run.params.app_shall_exit, "the window closes by itself"
 
+    def plant(self) -> None:
+        """Plant a fault that must be noticed: a view that fails."""
+        view = self.window.views[RASTER]
+        view.draw = lambda _: [][0]  # type: ignore[method-assign]
+        self.d.until(lambda: bool(self.window.shell.stage.failed.errors))
+        try:
+            self._check()
+        except AssertionError:
+            del view.draw
+            self.window.shell.stage.failed.retry()
+            self.d.until(lambda: not self.window.shell.stage.failed.errors)
+            return
+        raise AssertionError("a view that fails is not noticed: the attack sees nothing")
+
     def rest(self) -> None:
         """Back to the beginning: both images are there, agree, and memory has not grown."""
         self.tell("rest")
@@ -350,6 +364,7 @@ def drive_random_events(d: Driver) -> None:
     _stay_open(d, attack)
     end_s = time.monotonic() + 60 * MINUTES
     attack.rest()
+    attack.plant()
     count = 0
     while time.monotonic() < end_s:
         attack.event()

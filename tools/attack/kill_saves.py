@@ -12,6 +12,7 @@ Needs fork.
 from __future__ import annotations
 
 import argparse
+import contextlib
 import math
 import os
 import random
@@ -63,6 +64,9 @@ def attack(folder: Path, times: int, chance: random.Random, minutes: float = mat
     known: dict[str, int] = {}
     saved = 0
     round_s = _round_s(folder / "elsewhere")
+    if missed := _missed(folder / "elsewhere"):
+        print(f"a torn {missed} is not noticed: the attack sees nothing")
+        return 1
     for kill in range(times):
         if time.monotonic() > end_s:
             times = kill
@@ -105,8 +109,8 @@ def save_all(folder: Path, number: int, recent: RecentFiles) -> None:
     place = take_place(folder)
     assert place is not None
     assert place.path.name == "session-1.json", "the place of a dead process is not free"
-    windows = f"{number} " + "x" * PADDING + f" {number}"
-    place.save(to_bytes(session_of(AppState.for_scene(scene), Arrangement("", (), windows))))
+    arrangement = Arrangement(focused=f"{number} " + "x" * PADDING + f" {number}")
+    place.save(to_bytes(session_of(AppState.for_scene(scene), arrangement)))
     place.release()
 
 
@@ -131,7 +135,7 @@ def read_all(folder: Path) -> dict[str, int]:
             numbers[name] = int(eye[0])
     if (folder / "session-1.json").exists():
         session = from_bytes((folder / "session-1.json").read_bytes())
-        first, padding, last = session.arrangement.windows.split()
+        first, padding, last = session.arrangement.focused.split()
         assert padding == "x" * PADDING
         assert first == last
         numbers["session-1.json"] = int(first)
@@ -151,6 +155,21 @@ def _round_s(folder: Path) -> float:
     start_s = time.monotonic()
     save_all(folder, 2, recent)
     return time.monotonic() - start_s
+
+
+def _missed(folder: Path) -> str:
+    """Plant faults that must be noticed: each file in turn is cut in its middle.
+
+    Return the name of one that is taken for whole.
+    """
+    for path in sorted(path for path in folder.iterdir() if path.suffix != ".lock"):
+        data = path.read_bytes()
+        path.write_bytes(data[: len(data) // 2])
+        with contextlib.suppress(Exception):
+            read_all(folder)
+            return path.name
+        path.write_bytes(data)
+    return ""
 
 
 def _start(folder: Path, first: int) -> int:

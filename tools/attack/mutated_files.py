@@ -24,6 +24,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
+from unittest import mock
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # a fork has one thread
 
@@ -39,6 +40,7 @@ LARGEST = 1 << 18  # bytes of a damaged file
 LONGEST = 2500  # letters of a refusal
 GOOD, REFUSED = "read", "refused"
 BESIDE = (".mtl", ".bin")  # files that others name
+READERS = ("load_scene", "load_view", "load_lecture")
 
 # What a count, an index or a size may become.
 NUMBERS = (
@@ -241,6 +243,10 @@ def attack(folder: Path, options: argparse.Namespace) -> int:
     for name in seeds:
         if not name.endswith(BESIDE) and (answer := read_apart(folder / name)) != GOOD:
             raise AssertionError(f"{name}, which is sound: {answer}")
+    sound = folder / next(name for name in seeds if not name.endswith(BESIDE))
+    with mock.patch.multiple(__name__, **dict.fromkeys(READERS, mock.Mock(side_effect=KeyError))):
+        if read_apart(sound) in (GOOD, REFUSED):
+            raise AssertionError("a reader that fails is not noticed: the attack sees nothing")
     counts: Counter[str] = Counter()
     for number in range(files):
         if time.monotonic() > end_s:

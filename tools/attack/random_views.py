@@ -19,13 +19,14 @@ import sys
 import time
 import warnings
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from lucida import Camera, Rasterizer, Scene, Tracer
 from lucida.renderer.compare.raster_and_ray import CHANNELS, Comparison, compare_frames
+from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import FlatScene, flatten
 from tools.attack.random_scenes import random_lens, random_scene, random_view
 
@@ -93,8 +94,8 @@ def view_of(task: Task, number: int, flat: FlatScene) -> tuple[str, Camera, tupl
     return kind, camera, (width, height)
 
 
-def run(task: Task) -> Total:
-    """Compares the task's views, in this process."""
+def run(task: Task, spoiled: Callable[[Frame], Frame] = lambda frame: frame) -> Total:
+    """Compare the task's views, in this process. spoiled: changes the ray images."""
     total = Total()
     with (
         warnings.catch_warnings(),
@@ -116,7 +117,7 @@ def run(task: Task) -> Total:
             where += f", {camera.lens.model}" if camera.lens is not None else ""
             total.views += 1
             try:
-                result = compared(flat, rasterizer, tracer, camera, size)
+                result = compared(flat, rasterizer, tracer, camera, size, spoiled)
             except Exception as error:  # whatever a view brings about is a finding
                 total.lines.append(f"{where}: {type(error).__name__}: {error}")
                 continue
@@ -138,11 +139,17 @@ def compared(
     tracer: Tracer,
     camera: Camera,
     size: tuple[int, int],
+    spoiled: Callable[[Frame], Frame],
 ) -> Comparison:
     enlargement = 1 + size[0] % 2
     raster = rasterizer.render(camera, size, CHANNELS, enlargement=enlargement)
-    ray = tracer.render(camera, size, CHANNELS)
+    ray = spoiled(tracer.render(camera, size, CHANNELS))
     return compare_frames(flat, camera, size, raster, ray, enlargement=enlargement)
+
+
+def _deeper(frame: Frame) -> Frame:
+    """Plant a fault that must be noticed."""
+    return replace(frame, depth=frame.channel("depth") * np.float32(1.01))
 
 
 def _totals(tasks: list[Task], processes: int) -> Iterator[Total]:
@@ -186,6 +193,9 @@ def main(argv: list[str] | None = None) -> int:
         )
         for first in range(chosen.first, last, CHUNK)
     ]
+    if not run(Task(1, 0, VIEWS_OF_A_SCENE), _deeper).lines:
+        print("random_views: depths that are wrong are not noticed: the attack sees nothing")
+        return 1
     total, end_s = Total(), time.monotonic() + 60 * chosen.minutes
     for part in _totals(tasks, max(1, min(chosen.processes, len(tasks)))):
         for line in part.lines:

@@ -19,7 +19,6 @@ from lucida.app.cameras.lens_choices import (
 )
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows
-from lucida.app.ui.explaining.symbols import spoken
 from lucida.app.ui.fields import Scale
 from lucida.app.ui.formula import formula
 from lucida.renderer.camera.lenses import MODELS, Lens, coefficient_range, with_coefficient
@@ -44,7 +43,7 @@ def _numbers(
     kind, size_px = KINDS[lens.model], imgui.get_font_size()
     formula(kind.latex.split(r",\quad "), size_px, f"lens {lens.model}")
     is_panorama = lens.model in ("equirectangular", "cylindrical")
-    rows.tip(spoken(PANORAMA if is_panorama else RADIUS, state.options.notation))
+    rows.tip(PANORAMA if is_panorama else RADIUS)
     # Only files hold the prism's terms (s1, sx1, ...).
     names = [name for name in MODELS[lens.model] if not name.startswith("s")]
     return _coefficients(state, draft, around, names)

@@ -1,19 +1,18 @@
 """The camera's panel: every number of the camera, to drag and to type.
 
-Lays out the panel and words eye and basis. projection.py has the numbers of the projection,
-sections.py the parts below. Takes a state and a draft and returns new ones.
+Lays out the panel and draws eye and basis. projection.py has the numbers of the projection, the
+other modules have the sections below them. Takes a state and a draft and returns new ones.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.basis import measures
 from lucida.app.cameras.camera_panel.actions import go_home, go_to_canonical, switch_projection
-from lucida.app.cameras.camera_panel.basis_numbers import basis_readout
 from lucida.app.cameras.camera_panel.lens_section import lens_section
+from lucida.app.cameras.camera_panel.more_section import more_section
 from lucida.app.cameras.camera_panel.projection import PanelContext, component, projection_numbers
 from lucida.app.cameras.camera_panel.sections import (
     Sections,
@@ -25,26 +24,21 @@ from lucida.app.cameras.camera_panel.sections import (
 from lucida.app.cameras.editing import BASIS, Draft
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import pending, rows, theme
-from lucida.app.ui.checks import checkbox, radio_button
-from lucida.app.ui.explaining.symbols import spoken, vector
+from lucida.app.ui.checks import radio_button
 from lucida.app.ui.fields import Scale
 
 ROLES = {
-    "eye": ("e", "", "The eye: where all viewing rays start (perspective)."),
-    "u": ("u", "right", "u: to the right in the image. A pixel's `x` counts in lengths of u."),
-    "v": ("v", "up", "v: up in the image. A pixel's `y` counts in lengths of v."),
+    "eye": ("e", "eye", "The eye: where all viewing rays start (perspective)."),
+    "u": ("u", "right", "u: to the right in the image. A pixel's place counts in lengths of u."),
+    "v": ("v", "up", "v: up in the image. A pixel's place counts in lengths of v."),
     "w": ("w", "back", "w: backwards, against the view direction: the camera looks along -w."),
 }
 PERSPECTIVE = """\
 All rays start at the eye and go through their pixel on the image plane:
-`origin = eye,  direction = x*u + y*v - distance*w`"""
+p = cam.e,  d = u*cam.u + v*cam.v - cam.d*cam.w"""
 PARALLEL = """\
 All rays go along -w and start at their pixel, on the plane of the eye:
-`origin = eye + x*u + y*v,  direction = -w`"""
-EXPOSURE = "In stops: +1 doubles the light of both images before it is shown."
-ORTHONORMAL = """\
-On: u, v, w stay of length 1 and at right angles; the others follow the one you edit.
-Off: any three independent vectors: skewed, scaled or left-handed."""
+p = cam.e + u*cam.u + v*cam.v,  d = -cam.w"""
 
 
 @dataclass(frozen=True)
@@ -74,15 +68,8 @@ def _panel(
 ) -> tuple[AppState, PanelOutcome]:
     draft = panel.draft.following(state.camera)
     wish = _projection(state)
-    rows.line()
     state, draft = _vectors(state, draft, around)
-    found = measures(*(draft.following(state.camera).value(name) for name in BASIS))
-    basis_readout(found, around.fonts.mono)
-    state = _orthonormal(state)
-    rows.line()
     state, draft = projection_numbers(state, draft, around)
-    state = _exposure(state, around)
-    draft = draft.following(state.camera)
     wish = _resets() or wish
     state, draft, sections, wanted = _sections(state, draft, panel.sections, around)
     draft, wish = draft.following(state.camera), wanted or wish
@@ -95,18 +82,18 @@ def _panel(
 
 def _projection(state: AppState) -> Wish | None:
     """Draw the two buttons."""
-    parallel, notation = state.camera.is_parallel, state.options.notation
+    parallel = state.camera.is_parallel
     half = imgui.get_content_region_avail().x / 2
     wanted = parallel
     if radio_button("perspective", not parallel):
         wanted = False
-    rows.tip(spoken(PERSPECTIVE, notation))
+    rows.tip(PERSPECTIVE)
     style = imgui.get_style()
     if imgui.get_item_rect_size().x + style.item_spacing.x < half:  # else below: very large type
         imgui.same_line(style.window_padding.x + half)
     if radio_button("parallel", parallel):
         wanted = True
-    rows.tip(spoken(PARALLEL, notation))
+    rows.tip(PARALLEL)
     return None if wanted == parallel else Wish(switch_projection)
 
 
@@ -118,11 +105,9 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
         middle = (thirds.field_px - imgui.calc_text_size(letter).x) / 2
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + middle)
         imgui.text_colored(theme.DIM, letter)
-    notation = state.options.notation
     for name, (letter, role, tip) in ROLES.items():
-        label, tooltip = vector(letter, notation), spoken(tip, notation)
         color = theme.BASIS.get(name, theme.PLAIN)
-        rows.label(label, role, color if name in BASIS else theme.TEXT, around.fonts, tooltip)
+        rows.label(letter, role, color if name in BASIS else theme.TEXT, around.fonts, tip)
         reach = around.focus.reach if name == "eye" else 1.0
         for axis, letter in enumerate("xyz"):
             thirds.go(axis)
@@ -132,24 +117,9 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
             scale = Scale(middle - reach, middle + reach)
             place, width = (name, axis), thirds.field_px
             state, draft = component(
-                state, draft, around, place, f"{name}.{letter}", width, scale, color, tooltip
+                state, draft, around, place, f"{name}.{letter}", width, scale, color, tip
             )
     return state, draft
-
-
-def _orthonormal(state: AppState) -> AppState:
-    changed, keep = checkbox("keep orthonormal", state.keep_orthonormal)
-    rows.tip(ORTHONORMAL)
-    return state.with_keep_orthonormal(keep) if changed else state
-
-
-def _exposure(state: AppState, around: PanelContext) -> AppState:
-    width = rows.row("exposure", "", EXPOSURE, around.fonts)
-    value, scale = state.images.exposure_ev, Scale(-4.0, 4.0)
-    changed, value = around.field("exposure", value, width, scale, EXPOSURE, reset=0.0, unit=" EV")
-    if changed:
-        state = state.with_options(replace(state.options.images, exposure_ev=value))
-    return state
 
 
 def _resets() -> Wish | None:
@@ -172,16 +142,20 @@ def _sections(
     state: AppState, draft: Draft, sections: Sections, around: PanelContext
 ) -> tuple[AppState, Draft, Sections, Wish | None]:
     wish: Wish | None = None
-    opened: list[str] = []
     look = sections.look
-    if header("Lens", sections):
-        opened.append("Lens")
-        state, draft = lens_section(state, draft, around)
-    if header("K, R and t", sections):
-        opened.append("K, R and t")
-        state, wish = words_section(state, around.size, around.fonts)
-    if header("Look at", sections):
-        opened.append("Look at")
-        look, wanted = look_section(look, state, around)
-        wish = wish or wanted
+    opened = []
+    for name in ("More", "Lens", "K, R and t", "Look at"):
+        if not header(name, sections):
+            continue
+        opened.append(name)
+        draft = draft.following(state.camera)
+        if name == "More":
+            state, draft = more_section(state, draft, around)
+        elif name == "Lens":
+            state, draft = lens_section(state, draft, around)
+        elif name == "Look at":
+            look, wanted = look_section(look, state, around)
+            wish = wish or wanted
+        else:
+            state, wish = words_section(state, around.size, around.fonts)
     return state, draft, Sections(look, tuple(opened)), wish

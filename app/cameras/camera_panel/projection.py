@@ -1,4 +1,4 @@
-"""The camera panel's numbers of the picture: distance, field of view, viewport, clip planes.
+"""The camera panel's numbers of the picture: distance, field of view, viewport.
 
 Takes a state and a draft and returns new ones, including the coupling between the numbers.
 """
@@ -10,15 +10,13 @@ from dataclasses import dataclass, replace
 from imgui_bundle import ImVec4, imgui
 
 from lucida.app.cameras.editing import Draft, edit_component, edit_field
-from lucida.app.cameras.presets import clip_around
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
-from lucida.app.ui.explaining.symbols import program, spoken
 from lucida.app.ui.fields import Scale, number_field
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.navigation import depth_of, distance_for, dollied, with_shift
+from lucida.renderer.camera.navigation import distance_for
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.system.errors import LucidaError
 
@@ -29,22 +27,10 @@ VIEWPORT = (
     ("top", "The viewport's upper edge, in units of v."),
 )
 RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
-SHIFTS = (
-    ("x", "u", "Off-axis: the middle of the viewport along u. Its size stays."),
-    ("y", "v", "Off-axis: the middle of the viewport along v. Its size stays."),
-)
-DISTANCE = "`distance`: how far the image plane lies from the eye along -w, in units of w."
+DISTANCE = "d: how far the image plane lies from the eye along -w, in units of w."
 FIELD_OF_VIEW = """\
 The vertical angle between the viewport's lower and upper edge, seen from the eye.
-It and `distance` are one number: the viewport stays, `distance` changes."""
-DOLLY = """\
-Dolly zoom: the eye goes back and `distance` grows with it, so that the scene's middle keeps its
-size; only the perspective changes.
-The number: how far the middle is from the eye, in units of w."""
-PLANES = (
-    ("near", "Nothing nearer is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
-    ("far", "Nothing farther is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
-)
+It and d are one number: the viewport stays, d changes."""
 FIT = """\
 On: the viewport is widened or heightened to the image's shape.
 Off: it is used as it stands, and the picture may look stretched."""
@@ -88,11 +74,8 @@ def projection_numbers(
     """Draw all numbers into the current window."""
     state, draft = _distance(state, draft.following(state.camera), around)
     state, draft = _field_of_view(state, draft.following(state.camera), around)
-    state = _dolly(state, around)
     rows.line()
-    state, draft = _viewport(state, draft.following(state.camera), around)
-    state, draft = _shift(state, draft, around)
-    return _clip(state, draft, around)
+    return _viewport(state, draft.following(state.camera), around)
 
 
 def component(
@@ -131,17 +114,14 @@ def component(
 
 
 def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    notation = state.options.notation
-    symbol, role = ("d", "distance") if notation == "book" else ("distance", "")
-    tooltip = spoken(DISTANCE, notation)
-    width = rows.row(symbol, role, tooltip, around.fonts)
+    width = rows.row("d", "distance", DISTANCE, around.fonts)
     imgui.begin_disabled(state.camera.is_parallel)
     changed, value = around.field(
         "distance",
         draft.value("distance"),
         width,
         Scale(0.1 * _side(state), 10.0 * _side(state), logarithmic=True),
-        tooltip,
+        DISTANCE,
         wrong=draft.is_wrong("distance"),
         reset=state.scene.view.camera.distance,
     )
@@ -153,8 +133,7 @@ def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
     """Draw the distance as an angle, of the viewport as drawn."""
-    tooltip = spoken(FIELD_OF_VIEW, state.options.notation)
-    width = rows.row("field of view", "", tooltip, around.fonts, derived=True)
+    width = rows.row("field of view", "", FIELD_OF_VIEW, around.fonts, derived=True)
     if state.camera.is_parallel:
         rows.instead(NO_EYE)
         return state, draft
@@ -168,7 +147,7 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
         Scale(0.0, 120.0, least=LEAST_FOV_DEG, most=MOST_FOV_DEG)
         if shown.lens is None
         else Scale(0.0, 180.0, least=LEAST_FOV_DEG, most=359.0),
-        tooltip,
+        FIELD_OF_VIEW,
         wrong=draft.is_wrong("field of view"),
         unit="\N{DEGREE SIGN} vertical",
     )
@@ -179,26 +158,6 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
     except LucidaError as error:
         return state, replace(draft, error=error)
     return edit_field(state, draft, "distance", distance)
-
-
-def _dolly(state: AppState, around: PanelContext) -> AppState:
-    tooltip = spoken(DOLLY, state.options.notation)
-    width = rows.row("dolly zoom", "", tooltip, around.fonts, derived=True)
-    camera, reach = state.camera, around.focus.reach
-    depth = depth_of(camera, around.focus.center)
-    if camera.is_parallel or not depth > 0:
-        rows.instead(NO_EYE if camera.is_parallel else "none, the scene is behind the eye")
-        return state
-    scale = Scale(0.02 * reach, 20.0 * reach, logarithmic=True)
-    changed, value = around.field("dolly zoom", depth, width, scale, tooltip, unit=" to the focus")
-    if not (changed and value > 0):
-        return state
-    try:
-        return state.with_camera(
-            dollied(camera, around.focus.center, camera.distance * value / depth)
-        )
-    except (LucidaError, OverflowError):  # as far as numbers go
-        return state
 
 
 def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
@@ -212,63 +171,12 @@ def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
     for index, (name, tooltip) in enumerate(VIEWPORT):
         width = halves.label(index % 2, name, tooltip)
         color = theme.BASIS["u" if index < 2 else "v"]
-        place, scale = ("viewport", index), _scale(state, around)
+        place, scale = ("viewport", index), viewport_scale(state, around)
         state, draft = component(state, draft, around, place, name, width, scale, color, tooltip)
     return state, draft.following(state.camera)
 
 
-def _shift(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    halves = rows.Halves()
-    for axis, (place, vector, tooltip) in enumerate(SHIFTS):
-        name = f"shift {program(place, state.options.notation)}"
-        width = halves.label(axis, name, tooltip)
-        low, high = state.camera.viewport[2 * axis : 2 * axis + 2]
-        scale, color = _scale(state, around), theme.BASIS[vector]
-        changed, value = around.field(
-            name, (low + high) / 2, width, scale, tooltip, color, reset=0.0
-        )
-        if changed:
-            try:
-                state = state.with_camera(with_shift(state.camera, axis, value))
-                draft = draft.following(state.camera)
-            except LucidaError as error:
-                draft = replace(draft, error=error)
-    return state, draft
-
-
-def _clip(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    """Draw near and far: each a switch and a field, which shows the fitted plane while it is
-    off.
-    """
-    fitted = clip_around(around.shown, around.focus.bounds)
-    reach, halves = around.focus.reach, rows.Halves()
-    for column, (name, tooltip) in enumerate(PLANES):
-        draft = draft.following(state.camera)
-        halves.begin(column)
-        entered = draft.value(name)
-        changed, on = checkbox(name, entered is not None)
-        rows.tip(tooltip)
-        if changed:
-            state, draft = edit_field(state, draft, name, fitted[column] if on else None)
-            entered = draft.value(name)
-        width = halves.field(column)
-        imgui.begin_disabled(entered is None)
-        changed, value = around.field(
-            f"{name} plane",
-            fitted[column] if entered is None else entered,
-            width,
-            Scale(0.01 * reach, 10.0 * reach, logarithmic=True),
-            tooltip,
-            wrong=draft.is_wrong(name),
-            reset=fitted[column],
-        )
-        imgui.end_disabled()
-        if changed:
-            state, draft = edit_field(state, draft, name, value)
-    return state, draft
-
-
-def _scale(state: AppState, around: PanelContext) -> Scale:
+def viewport_scale(state: AppState, around: PanelContext) -> Scale:
     """Return the scale of the viewport's numbers: lengths for parallel rays, else slopes."""
     reach = around.focus.reach if state.camera.is_parallel else _side(state)
     return Scale(-reach, reach)

@@ -19,7 +19,6 @@ from lucida.app.cameras.presets import look_at
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import pending, rows, theme
 from lucida.app.ui.checks import radio_button
-from lucida.app.ui.explaining.symbols import vector
 from lucida.app.ui.fields import Scale
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.checks import Vector
@@ -83,7 +82,7 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
     }
     for name, note in LOOK_FIELDS:
         imgui.align_text_to_frame_padding()
-        shown = vector("e", state.options.notation) if name == "eye" else name
+        shown = "e" if name == "eye" else name
         imgui.text_colored(theme.TEXT, shown)
         rows.tip(note)
         reach = 1.0 if name == "up" else around.focus.reach
@@ -128,6 +127,7 @@ def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppS
         imgui.text_colored(theme.DIM, f"No K, R and t: the projection {error.problem}.")
         imgui.pop_text_wrap_pos()
         return state, None
+    imgui.text_colored(theme.DIM, "K intrinsics, R rotation, t translation")
     imgui.push_font(fonts.mono, 0.0)
     imgui.text("\n".join(words.read))
     imgui.pop_font()

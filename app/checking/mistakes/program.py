@@ -15,7 +15,6 @@ from typing import Any
 import numpy as np
 
 from lucida.app.checking.mistakes.vectors import FUNCTIONS
-from lucida.app.state.options.shared import Notation
 from lucida.app.ui.explaining.symbols import program, words
 
 Swaps = tuple[tuple[str, str], ...]
@@ -96,9 +95,9 @@ class Program:
                 instead[key] = mistake.swapped(instead[key]) if key in instead else code
         return tuple(ShownLine(line.key, line.code, instead.get(line.key)) for line in self.lines)
 
-    def in_notation(self, notation: Notation) -> Program:
-        """Return the program to show in a notation. Its names are not those that run() knows."""
-        return _shown(self, notation)
+    def shown(self) -> Program:
+        """Return the program to show, with letters, which are not the names that run() knows."""
+        return _shown(self)
 
     def source(self, mistakes: Sequence[Mistake] = ()) -> str:
         """Return the code that is run."""
@@ -144,18 +143,15 @@ def _compiled(source: str) -> CodeType:
 
 
 @functools.lru_cache(64)
-def _shown(its: Program, notation: Notation) -> Program:
-    def shown(code: str) -> str:
-        return program(code, notation)
-
+def _shown(its: Program) -> Program:
     mistakes = tuple(
         replace(
             mistake,
-            lines=tuple((key, shown(code)) for key, code in mistake.lines),
-            hint=words(mistake.hint, notation),
-            swaps=tuple((shown(old), shown(new)) for old, new in mistake.swaps),
+            lines=tuple((key, program(code)) for key, code in mistake.lines),
+            hint=words(mistake.hint),
+            swaps=tuple((program(old), program(new)) for old, new in mistake.swaps),
         )
         for mistake in its.mistakes
     )
-    lines = tuple(CodeLine(line.key, shown(line.code)) for line in its.lines)
+    lines = tuple(CodeLine(line.key, program(line.code)) for line in its.lines)
     return replace(its, lines=lines, mistakes=mistakes)

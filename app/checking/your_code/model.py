@@ -18,7 +18,6 @@ from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.viewing_ray import cases_of
 from lucida.app.checking.task_file import BUILTIN, TaskSet, builtin_tasks, load_tasks
 from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Limits, Run
-from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import View
@@ -56,14 +55,9 @@ class CodeRays:
         return np.asarray(np.isfinite(self.given).all(axis=(2, 3)))
 
 
-def asked_of(path: str, notation: Notation = "book") -> TaskSet:
-    """Return the tasks in a course's file, "" for the built-in ones, in the window's notation.
-    Raises LucidaError.
-    """
-    if not path:
-        return TaskSet("", builtin_tasks(notation), LIMITS)
-    asked = load_tasks(path)
-    return replace(asked, tasks=tuple(replace(one, notation=notation) for one in asked.tasks))
+def asked_of(path: str) -> TaskSet:
+    """Return the tasks in a course's file, "" for the built-in ones. Raises LucidaError."""
+    return load_tasks(path) if path else TaskSet("", builtin_tasks("book"), LIMITS)
 
 
 def tasks_of(
@@ -160,17 +154,15 @@ ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for anot
 
 @dataclass(frozen=True)
 class CodeContent:
-    """The file, the tasks and the words of one check.
+    """The file and the tasks of one check.
 
     path: of the file.
     tasks: the file of tasks, "" for the built-in ones.
-    notation: the window's.
     version: changes with the content of the file or of the tasks' file.
     """
 
     path: str
     tasks: str = ""
-    notation: Notation = "book"
     version: int = 1
 
     def is_of_files(self, other: CodeContent) -> bool:

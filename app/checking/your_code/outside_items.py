@@ -9,18 +9,16 @@ import numpy as np
 
 from lucida.app.checking.your_code.model import CodeRays
 from lucida.app.instruments.outside import answers
-from lucida.app.instruments.outside.diagram import Item, in_notation
+from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.second_camera import (
     GivenRay,
     corner_rays,
     second_camera,
 )
-from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.state.options.shared import Pixel
 
 
-def outside_items(
-    rays: CodeRays, marked: Pixel | None, end: float, first: str, notation: Notation
-) -> list[Item]:
+def outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) -> list[Item]:
     """Return a wrong answer's drawing for the outside view. Without a mark, the rays are those of
     the first wrong pixel.
 
@@ -34,4 +32,4 @@ def outside_items(
     pixel = marked if marked is not None else tuple(np.argwhere(rays.wrong)[0].tolist())
     if rays.came[pixel]:
         items += answers.ray(GivenRay(*rays.given[pixel]), GivenRay(*rays.right[pixel]), reach)
-    return in_notation(items, notation)
+    return items

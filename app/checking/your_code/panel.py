@@ -18,7 +18,6 @@ from lucida.app.checking.your_code.model import CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
 from lucida.app.instruments.stepper.panel import CANVASES
-from lucida.app.state.options.shared import Notation
 from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
 from lucida.app.ui.coded_text import coded_text
@@ -49,12 +48,12 @@ TRUST = (
 )
 
 
-def invitation(tasks: str, notation: Notation, fonts: Fonts) -> CodeWish:
+def invitation(tasks: str, fonts: Fonts) -> CodeWish:
     """Draw the panel when no file is open. tasks: the name of the file of tasks, or ""."""
-    task = next(task for task in builtin_tasks(notation) if task.kind == "viewing-ray")
+    task = next(task for task in builtin_tasks("book") if task.kind == "viewing-ray")
     wrapped(INVITATION)
     with lettering(fonts.mono):
-        code = SIGNATURE.format(signature(task), arguments(returned(task), notation))
+        code = SIGNATURE.format(signature(task), arguments(returned(task), task.notation))
         imgui.text_colored(theme.DIM, code)
     wish: CodeWish = ""
     if imgui.button("Write a file to begin with..."):

@@ -165,7 +165,7 @@ class CodeRuns:
         if opened is not None:
             opened.student.close()
         self._is_stale = False
-        asked = asked_of(content.tasks, content.notation)
+        asked = asked_of(content.tasks)
         self._opened = _Opened(content, self._make(Path(content.path), asked.limits), asked)
         return self._opened
 

@@ -24,7 +24,7 @@ from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, told_of
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.state.options.shared import Pixel
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui import layout, theme
 from lucida.app.ui.background import Background
@@ -130,7 +130,7 @@ class YourCodeView(Instrument):
         if not path:
             self._rest()
             tasks = restored(host.state.options.your_code.tasks)
-            wish = panel.invitation(Path(tasks).name, host.state.options.notation, host.fonts)
+            wish = panel.invitation(Path(tasks).name, host.fonts)
         elif not self._may_run(host, path):
             self._rest()
             wish = self._untrusted(host, path)
@@ -165,7 +165,7 @@ class YourCodeView(Instrument):
         self._follower.follow(tuple(one for one in (path, tasks) if one), runs.files)
         runs.poll()
         camera = host.state.view.for_size(options.canvas)
-        content = CodeContent(path, tasks, host.state.options.notation, self._follower.version)
+        content = CodeContent(path, tasks, self._follower.version)
         runs.follow(CodeQuestion(content, options.task, camera, options.canvas))
         report = runs.report
         if report is not None and not report.question.content.is_of_files(content):
@@ -203,7 +203,7 @@ class YourCodeView(Instrument):
             return
         end = end_parameter(rays.camera, host.focus.framed)
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
-        items = self._items(rays, marked, end, first, host.state.options.notation)
+        items = self._items(rays, marked, end, first)
         self._outside.show(YOUR_CODE, items)
         place = report.question.content.path, rays.task.name
         if place != self._opened_for:  # once: the user may close it again
@@ -231,12 +231,12 @@ class YourCodeView(Instrument):
         if wish == "open":
             host.files.open_code_dialog()
         elif wish == "starter":
-            tasks, notation = host.state.options.your_code.tasks, host.state.options.notation
+            tasks = host.state.options.your_code.tasks
             host.files.save_as_dialog(
                 "Write a file to begin with",
                 STARTER,
                 ("Python files", ".py"),
-                lambda path: self.write_starter(path, tasks, notation),
+                lambda path: self.write_starter(path, tasks),
             )
         elif wish == "edit" and path and not open_in_editor(path):
             host.files.message = f"No editor was found. The file is {one_line(path)}."
@@ -251,12 +251,12 @@ class YourCodeView(Instrument):
         elif wish == "built-in":
             host.edit(replace(host.options.your_code, tasks="", task=""))
 
-    def write_starter(self, path: str, tasks: str = "", notation: Notation = "book") -> str:
+    def write_starter(self, path: str, tasks: str = "") -> str:
         """Write a starter file, on a thread. Raises LucidaError.
 
         tasks: those whose functions it should have, as in the options.
         """
-        asked = asked_of(restored(tasks), notation).tasks
+        asked = asked_of(restored(tasks)).tasks
         wanted = asked if tasks else [task for task in asked if task.kind == RAY]
         with atomic_write(Path(path)) as file:
             file.write(starter(wanted).encode())

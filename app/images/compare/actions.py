@@ -10,7 +10,7 @@ from lucida.app.state.options.compare import CompareMode
 from lucida.app.ui.action import Action, choosing
 from lucida.app.ui.host import Host
 
-MENU = "View/Compare"
+MENU = "Image/Compare"
 
 
 def _step(forward: bool) -> Callable[[Host], None]:
@@ -24,9 +24,16 @@ def _step(forward: bool) -> Callable[[Host], None]:
     return run
 
 
+def show_differing(window: Host) -> None:
+    """Show the difference of both images, with a mark on each differing pixel."""
+    compare = replace(window.options.compare, mode="absolute", causes=True)
+    window.edit(compare)
+    window.show("Compare")
+
+
 def _differ(window: Host) -> bool:
     verdict = window.renderers.verdict(window.state)
-    return verdict is not None and verdict.comparison.agree < verdict.comparison.pixels
+    return verdict is not None and verdict.comparison.differing > 0
 
 
 def _comparing(mode: CompareMode, name: str, keys: str) -> Action:

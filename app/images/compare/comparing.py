@@ -44,12 +44,6 @@ LABELS = (
 assert len(LABELS) == len(CAUSES) + 2
 
 
-def offered(state: AppState) -> tuple[Cause, ...]:
-    """Return the causes that the images of this state may have."""
-    has_lens = state.camera.lens is not None
-    return tuple(cause for cause in LABELS if has_lens or cause.name != "lookup")
-
-
 def counts(comparison: Comparison) -> dict[int, int]:
     """Return the number of pixels for each of LABELS, by label."""
     found = {1 + k: comparison.explained[name] for k, name in enumerate(CAUSES)}
@@ -60,17 +54,12 @@ def counts(comparison: Comparison) -> dict[int, int]:
 
 def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
     """Return the result in one line, and True if it is good news. effects: see effects_of()."""
-    differing = comparison.pixels - comparison.agree
     if effects and not comparison.nothing_hit:
-        return f"Not comparable with {effects}: {differing} of {comparison.pixels} differ", False
-    if comparison.nothing_hit and not comparison.unexplained:
-        return f"Nothing is hit in either image: {comparison.nothing_hit}", False
-    if not differing:
-        return "All pixels agree", True
-    if not comparison.unexplained:
-        causes = [label.name for label in LABELS if counts(comparison)[label.label]]
-        return f"Agree but for {_pixels(differing)}: {_listed(causes)}", True
-    return f"Disagree: {_pixels(comparison.unexplained)} without an explanation", False
+        differing = f"{comparison.differing} of {comparison.pixels}"
+        return f"Not comparable with {effects}: {differing} differ", False
+    text = comparison.verdict()
+    is_good = not (comparison.unexplained or comparison.nothing_hit)
+    return text[0].upper() + text[1:], is_good
 
 
 def effects_of(state: AppState) -> str:
@@ -116,11 +105,3 @@ def stepped(
         replace(state.options, marked=pixel),
         replace(state.options.images, magnification=magnification, center=center),
     )
-
-
-def _pixels(count: int) -> str:
-    return f"{count} pixel{'' if count == 1 else 's'}"
-
-
-def _listed(names: list[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

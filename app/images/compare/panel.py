@@ -17,7 +17,6 @@ from lucida.app.ui.lettering import fitting_words
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
 
-WIDEST = "000000"  # count
 SWATCH = int(imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)
 
 
@@ -54,8 +53,8 @@ def toolbar(host: Host) -> None:
 
 
 def verdict(host: Host, text: str, color: ImVec4, comparison: Comparison | None) -> None:
-    """Draw the result in one line, and each cause with its count: a click goes to the next of its
-    pixels. comparison: None until it is known.
+    """Draw the result in one line, and below it the causes that occur, the worst first, each with
+    its count. A click goes to the next of its pixels. comparison: None until it is known.
     """
     imgui.push_font(host.fonts.bold, 0.0)
     shown = fitting_words(text, imgui.get_content_region_avail().x)
@@ -63,22 +62,21 @@ def verdict(host: Host, text: str, color: ImVec4, comparison: Comparison | None)
     imgui.pop_font()
     if shown != text:
         tip(text)
-    counts = comparing.counts(comparison) if comparison is not None else {}
     swatch, room = imgui.get_frame_height(), imgui.get_content_region_avail().x
-    for number, cause in enumerate(comparing.offered(host.state)):
-        # The rows do not depend on the counts: another height would be another image.
-        width = min(button_width(f"{cause.name} {WIDEST}"), room - swatch)
-        if number:
-            follow(swatch + width)
+    imgui.dummy(ImVec2(0, swatch))  # always one row: another height would be another image
+    found = comparing.counts(comparison) if comparison is not None else {}
+    for cause in reversed(comparing.LABELS):
+        text = f"{cause.name} {found.get(cause.label, 0)}"
+        width = swatch + button_width(text)
+        if comparison is None or not found[cause.label] or width > room:
+            continue
+        room -= width + imgui.get_style().item_spacing.x
+        imgui.same_line()
         red, green, blue = (LABEL_COLORS[cause.label] / 255).tolist()
         imgui.color_button(f"##color {cause.name}", ImVec4(red, green, blue, 1), SWATCH)
         imgui.same_line(0, 0)
-        count = counts.get(cause.label, 0)
-        text = str(count) if comparison is not None else "..."
-        imgui.begin_disabled(not count)
-        pressed = imgui.button(f"{cause.name} {text}###{cause.name}", ImVec2(width, 0))
-        imgui.end_disabled()
+        pressed = imgui.button(f"{text}###{cause.name}")
         tip(f"{cause.told}\nClick: the next of these pixels. Shift+click: the previous one.")
-        if pressed and comparison is not None:
+        if pressed:
             forward = not imgui.get_io().key_shift
             host.apply(comparing.stepped(host.state, comparison, forward, cause.label))

@@ -65,7 +65,7 @@ def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) 
     if near.x <= middle.x <= end.x and near.y <= middle.y <= end.y:
         left, top = min(left, end.x - size.x - 6.0), max(top, near.y)
     corner, far = ImVec2(left, top), ImVec2(left + size.x + 6.0, top + size.y)
-    draw.add_rect_filled(corner, far, theme.u32(theme.rgb("#000000", 0.7)), 2.0)
+    draw.add_rect_filled(corner, far, theme.u32(theme.rgb("#000000", 0.85)), 2.0)
     draw.add_text(ImVec2(left + 3.0, top), theme.u32(theme.RAY), text)
 
 

@@ -107,19 +107,19 @@ def _values(
     while (bottom - top) * (right - left) / skip**2 > MOST_VALUES:
         skip += 1
     black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))
-    dim = {False: theme.u32(theme.rgb("#000000", 0.6)), True: theme.u32(theme.rgb("#ffffff", 0.65))}
     for row in range(top + -top % skip, bottom, skip):
         y = screen.point(row + 0.5, 0).y - (DIGITS_TOP + _high(lines) / 2) * size
         for column in range(left + -left % skip, right, skip):
-            text, on_dark = texts[row - top][column - left], dark[row - top][column - left]
+            text = texts[row - top][column - left]
+            color = white if dark[row - top][column - left] else black
             x = screen.point(0, column + 0.5).x
             below = y
             if named:
                 name = state.options.indexing.short((row, column))
                 at = ImVec2(x - ADVANCE * size * len(name) / 2, y)
-                draw.add_text(mono, size, at, dim[on_dark], name)
+                draw.add_text(mono, size, at, color, name)
                 below += LEADING * size
             for line in text.split("\n"):
                 at = ImVec2(x - ADVANCE * size * len(line) / 2, below)
-                draw.add_text(mono, size, at, white if on_dark else black, line)
+                draw.add_text(mono, size, at, color, line)
                 below += LEADING * size

@@ -33,7 +33,7 @@ class Line(NamedTuple):
 
 def color_of(is_ray: bool) -> ImVec4:
     """Return orange, which rays have everywhere, or blue, which everybody can tell from it."""
-    return theme.RAY if is_ray else theme.BASIS["w"]
+    return theme.seen(theme.RAY if is_ray else theme.BASIS["w"])
 
 
 def draw(unit: Unit, size: ImVec2) -> None:

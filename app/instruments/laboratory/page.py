@@ -9,7 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from lucida.app.instruments.laboratory.sheet import Look, Point, Sheet
 from lucida.app.state.options.laboratory import LaboratoryOptions
-from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.image_plane import Size
 
 Image = NDArray[np.float32]
@@ -21,7 +20,7 @@ class Page:
 
     size: of the sheet in pixels. color: the image, (height, width, 3), linear; empty where the
     drawing shows none. taken_ev: its exposure in stops. place: the position that is read, as
-    fractions of the image's width and height. notation: of formulas.
+    fractions of the image's width and height.
     """
 
     size: Size
@@ -30,7 +29,6 @@ class Page:
     color: Image
     taken_ev: float
     place: Point
-    notation: Notation = "book"
 
     @property
     def progress(self) -> float:

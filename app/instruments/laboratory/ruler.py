@@ -15,8 +15,6 @@ from lucida.app.instruments.laboratory.sheet import (
     reached,
 )
 from lucida.app.instruments.outside.figure import Color, Figure
-from lucida.app.state.options.shared import Notation
-from lucida.app.ui.explaining.symbols import plain
 from lucida.renderer.camera.checks import Floats
 
 COUNT = 10  # pixels in a row, and in a column
@@ -57,12 +55,12 @@ def ruler(page: Page) -> Figure:
         _name(image, number, (-0.8, CELL * (number + 0.5)), is_marked)
     names.word("j", (CELL * COUNT + 0.9, -0.8), TEXT, look.dim)
     image.word("i", (-0.8, -0.6), TEXT, look.dim)
-    _across(sheet, page.progress, row_y + CELL / 2, page.notation)
-    _down(image, page.notation)
+    _across(sheet, page.progress, row_y + CELL / 2)
+    _down(image)
     return sheet.figure()
 
 
-def _across(sheet: Sheet, progress: float, row_y: float, notation: Notation) -> None:
+def _across(sheet: Sheet, progress: float, row_y: float) -> None:
     """Draw the rulers below the row, and the way from one to the next."""
     x, look = CELL * (PIXEL[1] - 0.5), sheet.look
     for number, (name, values) in enumerate(zip(ACROSS, numbers(PIXEL[1]), strict=True)):
@@ -75,10 +73,10 @@ def _across(sheet: Sheet, progress: float, row_y: float, notation: Notation) -> 
         part.disc((x, y), 0.3, look.mark)
         for value, at in zip(values, (0.0, x, CELL * COUNT), strict=True):
             part.word(short(value), (at, y + 1.1), TEXT, color, strong=at == x)
-        part.word(plain(name, notation), (-1.2, y), TEXT, color, align=1.0)
+        part.word(name, (-1.2, y), TEXT, color, align=1.0)
 
 
-def _down(sheet: Sheet, notation: Notation) -> None:
+def _down(sheet: Sheet) -> None:
     """Draw the rulers of the column, from right to left."""
     y, look, (*rulers, last) = CELL * (PIXEL[0] - 0.5), sheet.look, numbers(PIXEL[0])
     upward = -last[0], -last[1], -last[2]
@@ -88,7 +86,7 @@ def _down(sheet: Sheet, notation: Notation) -> None:
         sheet.disc((x, y), 0.3, look.mark)
         for value, at in zip(values, (0.0, y, CELL * COUNT), strict=True):
             sheet.word(short(value), (x - 0.45, at), TEXT, color, strong=at == y, align=1.0)
-        sheet.word(plain(name, notation), (x, -1.6), TEXT, color)
+        sheet.word(name, (x, -1.6), TEXT, color)
 
 
 def _ticks(sheet: Sheet, first: Point, step: Point, color: Color) -> None:

@@ -70,7 +70,8 @@ class Sheet:
     def part(self, corner: ArrayLike = (0.0, 0.0), opacity: float = 1.0) -> Sheet:
         """Return the same sheet with its point (0, 0) at a corner; what is drawn on it is paler."""
         other = copy(self)
-        other._low, other._opacity = self._low - corner, self._opacity * opacity
+        low, opacity = self._low - corner, self._opacity * opacity
+        other._low, other._opacity = low, opacity  # noqa: SLF001, a copy of its own
         return other
 
     def figure(self) -> Figure:

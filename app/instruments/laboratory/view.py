@@ -98,8 +98,7 @@ class LaboratoryView(Instrument):
         reads = options.page == "function"
         place = self._read(host, size, color, corner, scale) if reads else options.point
         look, exposure_ev = look_of(theme.used().palette), host.state.images.exposure_ev
-        notation = host.state.options.notation
-        self.page = self._page(size, look, options, color, exposure_ev, place, notation)
+        self.page = self._page(size, look, options, color, exposure_ev, place)
         self.figure = self._figure(self.page)
         painter = Painter(imgui.get_window_draw_list(), host.fonts, self._uploads)
         painter.paint(self.figure, corner, 1 / scale, corner, far)
@@ -141,7 +140,8 @@ def toolbar(host: Host) -> LaboratoryOptions:
     """Draw the switches. Return the present options."""
     options = host.state.options.laboratory
     names = list(PAGES)
-    imgui.set_next_item_width(13 * imgui.get_font_size())
+    room = imgui.get_content_region_avail().x
+    imgui.set_next_item_width(min(13 * imgui.get_font_size(), room))
     titles = [kind.title for kind in PAGES.values()]
     moved, number = imgui.combo("##page", names.index(options.page), titles)
     changed = replace(options, page=names[number]) if moved else options  # type: ignore[arg-type]
@@ -160,9 +160,10 @@ def toolbar(host: Host) -> LaboratoryOptions:
 
 def _slider(label: str, value: float, limits: tuple[float, float], form: str) -> float:
     """Draw a slider in the same row if there is room. Return its value."""
-    width = 8 * imgui.get_font_size()
-    follow(width + imgui.calc_text_size(label).x)
-    imgui.set_next_item_width(width)
+    width, label_px = 8 * imgui.get_font_size(), imgui.calc_text_size(label).x
+    follow(width + label_px)
+    room = imgui.get_content_region_avail().x - imgui.get_style().item_inner_spacing.x - label_px
+    imgui.set_next_item_width(max(imgui.get_font_size(), min(width, room)))
     return imgui.slider_float(label, value, *limits, form)[1]
 
 

@@ -12,7 +12,6 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from lucida.app.checking.mistakes.program import Mistake, Mistakes, Program
 from lucida.app.instruments.mistakes import model
 from lucida.app.instruments.outside.paint import role_color
-from lucida.app.state.options.shared import Notation
 from lucida.app.ui import theme
 from lucida.app.ui.areas import press_area
 from lucida.app.ui.explaining import symbols
@@ -48,7 +47,6 @@ def program_lines(
     mistakes: Mistakes,
     width: float,
     fonts: Fonts,
-    notation: Notation,
 ) -> LineAnswer | None:
     """Draw the program, with correct code struck out above the wrong code that replaces it.
 
@@ -81,7 +79,7 @@ def program_lines(
                 color = wrong if is_wrong else theme.DIM if is_struck else theme.TEXT
                 draw.add_text(at, theme.u32(color), text)
                 if not (is_wrong or is_struck):
-                    _vectors(draw, at, text, notation)
+                    _vectors(draw, at, text)
                 if is_struck:
                     _strike(draw, at, text, wrong)
         caret = ImVec2(corner.x + width - 1.1 * size_px, corner.y + 0.5 * height)
@@ -90,10 +88,10 @@ def program_lines(
     return answer
 
 
-def _vectors(draw: imgui.ImDrawList, at: ImVec2, text: str, notation: Notation) -> None:
+def _vectors(draw: imgui.ImDrawList, at: ImVec2, text: str) -> None:
     """Draw the vectors of a line once more, in the colours that they have in formulas."""
     letter = imgui.calc_text_size("0").x
-    for column, word, name in symbols.vectors(text, notation):
+    for column, word, name in symbols.vectors(text):
         color = theme.legible(vector_colors().get(name, theme.TEXT))
         draw.add_text(ImVec2(at.x + column * letter, at.y), theme.u32(color), word)
 

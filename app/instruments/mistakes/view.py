@@ -132,13 +132,13 @@ class MistakesView(Instrument):
 
     def _page(self, host: Host, now: Situation, room: ImVec2) -> None:
         """Draw the program, the explanations of its mistakes, and the pictures."""
-        options, notation = host.state.options.mistakes, host.state.options.notation
-        program = now.program.in_notation(notation)
+        options = host.state.options.mistakes
+        program = now.program.shown()
         mistakes = model.named(program, options.chosen)
         corner = imgui.get_cursor_screen_pos()
         is_wide = room.x > WIDE * room.y
         width = TEXT_PART * room.x if is_wide else room.x
-        clicked = panel.program_lines(program, mistakes, width, host.fonts, notation)
+        clicked = panel.program_lines(program, mistakes, width, host.fonts)
         for one in mistakes:
             told = f"{one.hint} (lecture: {one.part})"
             coded_text(told, width, theme.TEXT, host.fonts)

@@ -10,5 +10,5 @@ placing     its labels, where they cover nothing
 paint       the input of the rasterizer's overlay, in the theme's colours
 figure      lines, polygons and labels on a page; svg writes it, painting paints it
 pixel_plane the image plane in pixels, to be dragged
-actions     what its menu and the menu View do; tools draws its menu, the axes and the labels
+actions     what its menu and the menu Instruments do; tools draws its menu, the axes and the labels
 """

@@ -1,6 +1,6 @@
 """The outside view's actions: switches, handles, directions to look from, and figures.
 
-The view's own menu and the menu View have the same entries.
+The view's own menu and the menu Instruments have the same entries.
 """
 
 from __future__ import annotations

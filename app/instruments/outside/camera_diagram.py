@@ -37,7 +37,6 @@ from lucida.app.instruments.outside.pixel_drawing import pixel_numbers, pixel_sq
 from lucida.app.instruments.outside.ray_drawing import half_line, meetings, rays_to
 from lucida.app.instruments.outside.simple_camera import simple_camera
 from lucida.app.state.options.outside import OutsideOptions
-from lucida.app.state.options.shared import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
@@ -57,7 +56,6 @@ class Content:
     hits: the bundle's rays.
     marked: the marked pixel's ray.
     grid_parts: the maximum number of parts of a side of the grid.
-    notation: the labels' notation.
     base: the number of the first row and column.
     number_step: see pixel_numbers(); None if rows and columns are not numbered.
     meetings: the t of all points where the marked pixel's line meets objects.
@@ -73,7 +71,6 @@ class Content:
     hits: Sequence[RayEnd] = ()
     marked: RayEnd | None = None
     grid_parts: int = MOST_GRID_LINES
-    notation: Notation = "book"
     base: int = 1
     number_step: int | None = None
     meetings: tuple[float, ...] = ()

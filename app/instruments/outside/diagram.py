@@ -10,14 +10,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 
-from lucida.app.state.options.shared import Notation, Pixel
-from lucida.app.ui.explaining.symbols import plain
+from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.checks import Floats
 
 Role = Literal[
@@ -146,16 +144,6 @@ def runs(text: str, strong: bool) -> list[tuple[str, bool]]:
     pieces = re.split(r"vec\((\w+)\)", text)
     whole = strong and len(pieces) == 1
     return [(piece, whole or bool(n % 2)) for n, piece in enumerate(pieces) if piece]
-
-
-def in_notation(items: Iterable[Item], notation: Notation) -> list[Item]:
-    """Return items whose labels are formulas of the book, as plain text, in a notation."""
-    if notation == "book":
-        return list(items)
-    return [
-        replace(item, text=plain(item.text, notation)) if isinstance(item, Label) else item
-        for item in items
-    ]
 
 
 def shares(grown: float, parts: int) -> list[float]:

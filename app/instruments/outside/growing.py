@@ -24,16 +24,14 @@ from lucida.app.instruments.outside.diagram import (
     Label,
     Role,
     Segments,
-    in_notation,
     term,
 )
 from lucida.app.instruments.outside.frustum import image_point, on_ray
 from lucida.app.instruments.outside.pixel_drawing import pixel_square
 from lucida.app.instruments.outside.simple_camera import simple_ray
 from lucida.app.state.options.outside import STAGES
-from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.explaining.notation import number, text_tuple
-from lucida.app.ui.explaining.symbols import latex
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, three
 
@@ -67,17 +65,17 @@ def stage_at(position: float | None, camera: Camera) -> str:
     return STAGES[max(math.ceil(position) - 1, 0)]
 
 
-def lit_in(formula: str, stage: str, notation: Notation = "book") -> str:
+def lit_in(formula: str, stage: str) -> str:
     """Return the part of a formula, in LaTeX, that a stage adds; "" if that is not in it."""
     whole = {
-        "centre": [latex(name, notation) + " = " for name in "uv"],
-        "ray": [*ENDS, *(latex(rf"\mathbf{{{name}}}", notation) for name in "pdr")],
+        "centre": [f"{name} = " for name in "uv"],
+        "ray": [*ENDS, *(rf"\mathbf{{{name}}}" for name in "pdr")],
     }
     if formula.startswith(tuple(whole.get(stage, ()))):
         return formula
     if stage == "w" and formula.endswith(r"= -\mathbf{w}"):
         return r"-\mathbf{w}"
-    added = latex(_LIT[stage], notation) if stage else ""
+    added = _LIT[stage] if stage else ""
     return added if added in formula else ""
 
 
@@ -109,13 +107,7 @@ def terms(camera: Camera, x: float, y: float, share: Mapping[str, float]) -> lis
 
 
 def grown_diagram(content: Content) -> list[Item]:
-    """Return diagram() in its notation, with the marked pixel's formula if the options ask for
-    it.
-    """
-    return in_notation(_grown(content), content.notation)
-
-
-def _grown(content: Content) -> list[Item]:
+    """Return diagram(), with the marked pixel's formula if the options ask for it."""
     camera, size, options, marked = content.camera, content.size, content.options, content.marked
     is_asked = options.formula is not None and options.ray and marked is not None
     if not is_asked or camera.lens is not None:

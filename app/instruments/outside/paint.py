@@ -16,7 +16,7 @@ from lucida.app.instruments.outside.diagram import Role, Segments
 from lucida.app.instruments.outside.figure import Color
 from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
 from lucida.app.ui import palettes, theme
-from lucida.app.ui.contrast import Rgb
+from lucida.app.ui.contrast import LEGIBLE, Rgb
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.raster.lines import (
@@ -31,6 +31,7 @@ from lucida.renderer.raster.lines import (
 )
 
 DARK_GROUND = 0.35  # the lightest channel of a scene's dark background
+RIM: Rgb = (0.19, 0.19, 0.19)  # that of a label over white; others are darker
 PALEST = 0.45  # a line that is paler has no casing, which would be all one sees of it
 
 FIXED: dict[Role, ImVec4] = {
@@ -74,10 +75,16 @@ def role_color(role: Role, ground: Rgb | None = None) -> ImVec4:
     return theme.MARK if role == "mark" else FIXED[role]
 
 
+def label_color(role: Role) -> ImVec4:
+    """Return the colour of a role's labels, which have dark rims."""
+    return theme.seen_on(role_color(role, RIM), RIM, LEGIBLE)
+
+
 def figure_color(role: Role, tint: float, ground: Rgb) -> Color:
     """Return the colour of a role in a figure on a ground, with a tint (1: white, -1: black)."""
     darker = DARKER if min(ground) > 0.5 else {}
-    return _tinted(darker.get(role, role_color(role, ground)), tint)
+    color = darker.get(role, role_color(role, ground))
+    return _tinted(theme.seen_on(color, ground, LEGIBLE), tint)
 
 
 @lru_cache(maxsize=1)

@@ -12,7 +12,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from lucida.app.instruments.outside.diagram import Role
 from lucida.app.instruments.outside.looking import AXIS_NAMES, TRIAD_PX
 from lucida.app.instruments.outside.mouse import Scope
-from lucida.app.instruments.outside.paint import role_color
+from lucida.app.instruments.outside.paint import label_color
 from lucida.app.instruments.outside.painting import measured, rimmed_text
 from lucida.app.instruments.outside.placing import Box, Edges, LabelPlacer
 from lucida.app.instruments.outside.projected import Primitive, Text
@@ -21,13 +21,12 @@ from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.ui import theme
 from lucida.app.ui.action import Action, draw_entry
 from lucida.app.ui.areas import press_area
-from lucida.app.ui.contrast import Rgb
 from lucida.app.ui.host import Host
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 
-MENU = "View/Outside view"
+MENU = "Instruments/In the outside view"
 PAD = 6  # around the menu's button
 GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # of the axes
 
@@ -139,8 +138,8 @@ def written(
     ]  # fmt: skip
 
 
-def draw_labels(labels: Iterable[Written], origin: ImVec2, ground: Rgb) -> None:
-    """Draw labels into a view at `origin`. ground: the colour under them."""
+def draw_labels(labels: Iterable[Written], origin: ImVec2) -> None:
+    """Draw labels into a view at `origin`."""
     draw, shadow = imgui.get_window_draw_list(), theme.u32(theme.rgb("#07080a", 0.85))
     for role, (x, y), size, pieces, lit in labels:
         at = ImVec2(math.floor(origin.x + x), math.floor(origin.y + y))
@@ -151,8 +150,8 @@ def draw_labels(labels: Iterable[Written], origin: ImVec2, ground: Rgb) -> None:
                 ImVec2(at.x + width + pad, at.y + size + pad),
             )
             draw.add_rect_filled(low, high, theme.u32(theme.rgb("#0c0d0f", 0.9)), pad)
-            draw.add_rect(low, high, theme.u32(role_color(role, ground)), pad, theme.px(2))
-        color = theme.u32(role_color(role, ground))
+            draw.add_rect(low, high, theme.u32(label_color(role)), pad, theme.px(2))
+        color = theme.u32(label_color(role))
         for font, text, wide in pieces:
             rimmed_text(draw, font, size, at, text, color, shadow, theme.px(1.8))
             at.x += wide

@@ -218,7 +218,7 @@ class OutsideView(Instrument):
             if axis is not None:
                 self.look_along(host, axis)
         labels = self._written(self._made.primitives, self._placer, size, host.fonts, tools)
-        draw_labels(labels, area.origin, ground)
+        draw_labels(labels, area.origin)
         taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
         if self._over:  # not between the two clicks, when the button is held
             self.hosted.double_is_taken = any(taken)
@@ -330,7 +330,6 @@ class OutsideView(Instrument):
             tuple(hits),
             marked,
             grid_parts=int(side_px / (GRID_PX * screen.unit_px)),
-            notation=state.options.notation,
             base=state.options.indexing.value,
             number_step=None if host.has_tools or not options.grid else step,
             meetings=found,

@@ -17,14 +17,14 @@ def _pinned(state: AppState) -> AppState:
 
 PINNING = (
     Action(
-        "Lecture",
+        "Instruments",
         "Pin the marked pixel",
         changing(_pinned),
         can=lambda w: w.state.marked is not None,
         separated=True,
     ),
     Action(
-        "Lecture",
+        "Instruments",
         "Remove all pins",
         changing(lambda state: state.with_options(replace(state.options.probe, pins=()))),
         can=lambda w: bool(w.state.options.probe.pins),

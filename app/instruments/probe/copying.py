@@ -7,9 +7,7 @@ from collections.abc import Iterable
 from lucida.app.instruments.probe.color_formulas import color_lines
 from lucida.app.instruments.probe.formulas import hit_lines, pixel_text, ray_lines
 from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Reading
-from lucida.app.state.options.shared import Notation
 from lucida.app.ui.explaining.notation import Line
-from lucida.app.ui.explaining.symbols import in_notation
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.images.shared_numbers import (
     SRGB_GAMMA,
@@ -21,28 +19,22 @@ from lucida.renderer.images.shared_numbers import (
 
 
 def section_lines(
-    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
+    reading: Reading, indexing: Indexing = Indexing.LECTURE
 ) -> tuple[list[Line], list[Line], list[Line]]:
     """Return a reading's lines for the ray, the hit and the colour."""
     color = [] if reading.is_outside else color_lines(reading)
-    parts = ray_lines(reading, indexing), hit_lines(reading), color
-    ray, hit, light = ([in_notation(line, notation) for line in part] for part in parts)
-    return ray, hit, light
+    return ray_lines(reading, indexing), hit_lines(reading), color
 
 
-def all_lines(
-    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
-) -> list[Line]:
+def all_lines(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> list[Line]:
     """Return every line of a reading, from the pixel's index to its bytes."""
-    return [line for part in section_lines(reading, indexing, notation) for line in part]
+    return [line for part in section_lines(reading, indexing) for line in part]
 
 
-def as_latex(
-    reading: Reading, indexing: Indexing = Indexing.LECTURE, notation: Notation = "book"
-) -> str:
+def as_latex(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
     """Return the lines as an `align*` of amsmath."""
     rows = []
-    for line in all_lines(reading, indexing, notation):
+    for line in all_lines(reading, indexing):
         left, equal, right = line.latex.partition(" = ")
         rows.append(rf"{left} &= {right} \\" if equal else rf"& {line.latex} \\")
         if line.latex_numbers:
@@ -56,7 +48,7 @@ def as_latex(
 
 
 def as_python(reading: Reading, indexing: Indexing = Indexing.LECTURE) -> str:
-    """Return a program in code's words, using only NumPy, that computes the ray, the hit and the
+    """Return a program that uses only NumPy, that computes the ray, the hit and the
     colour of the pixel.
 
     It leaves them in its variables origin, direction, t, point, normal, color and rgb; for a pixel

@@ -6,7 +6,7 @@ Takes a state and a reading, and returns a new state.
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,7 +20,7 @@ from lucida.app.instruments.probe.copying import (
 )
 from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import Notation, Pixel
+from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.explaining.notation import Line, number
 from lucida.app.ui.formula import formula, lit
@@ -50,8 +50,13 @@ class Pin:
 # The tools above.
 
 
-def toolbar(state: AppState, pixel: Pixel | None, reading: Reading | None) -> AppState:
-    """Draw the pixel, and the buttons. pixel: the marked one, or the one under the mouse."""
+def toolbar(
+    state: AppState, pixel: Pixel | None, reading: Reading | None, say: Callable[[str], None]
+) -> AppState:
+    """Draw the pixel, and the buttons.
+
+    pixel: the marked one, or the one under the mouse. say: reports what was copied.
+    """
     indexing = state.options.indexing
     imgui.align_text_to_frame_padding()
     words = indexing.words(pixel) if pixel is not None else "no pixel"
@@ -69,10 +74,10 @@ def toolbar(state: AppState, pixel: Pixel | None, reading: Reading | None) -> Ap
         imgui.open_popup("copy")
     imgui.end_disabled()
     if imgui.begin_popup("copy"):
-        if imgui.menu_item_simple("LaTeX") and reading is not None:
-            imgui.set_clipboard_text(as_latex(reading, indexing, state.options.notation))
-        if imgui.menu_item_simple("Python") and reading is not None:
-            imgui.set_clipboard_text(as_python(reading, indexing))
+        for form, written in (("LaTeX", as_latex), ("Python", as_python)):
+            if imgui.menu_item_simple(form) and reading is not None:
+                imgui.set_clipboard_text(written(reading, indexing))
+                say(f"The pixel's ray is in the clipboard: {form}.")
         imgui.end_popup()
     return state
 
@@ -109,16 +114,13 @@ _written = functools.lru_cache(maxsize=4)(section_lines)  # readings are compare
 def reading_panel(
     reading: Reading,
     indexing: Indexing,
-    notation: Notation,
     fonts: Fonts,
     stage: str = "",
 ) -> None:
     """Draw the reading. stage: of the growing formula, whose term is pointed out."""
-    ray, hit, color = _written(reading, indexing, notation)
+    ray, hit, color = _written(reading, indexing)
     if _section("Ray", fonts):
-        _lines(
-            replace(one, latex=lit(one.latex, lit_in(one.latex, stage, notation))) for one in ray
-        )
+        _lines(replace(one, latex=lit(one.latex, lit_in(one.latex, stage))) for one in ray)
     if reading.is_outside:
         wrapped(OUTSIDE, theme.legible(theme.MARK))
         return

@@ -85,7 +85,7 @@ class ProbeView(Instrument):
         pixel = self._pixel(host, size)
         reading = self._reading(host.state, pixel, host.renderers.camera(host.state), size)
         self.reading = reading
-        host.apply(panel.toolbar(host.state, pixel, reading))
+        host.apply(panel.toolbar(host.state, pixel, reading, host.files.say))
         pins = self._pins(host, size)
         if pins:
             host.apply(panel.pin_row(host.state, pins, pixel))
@@ -107,7 +107,7 @@ class ProbeView(Instrument):
         else:
             options, position = host.state.options, host.state.options.outside.formula
             stage = stage_at(position, host.renderers.camera(host.state))
-            panel.reading_panel(reading, options.indexing, options.notation, host.fonts, stage)
+            panel.reading_panel(reading, options.indexing, host.fonts, stage)
         imgui.end_child()
         self._show_outside(host, reading, size)
 

@@ -80,11 +80,11 @@ def _put(uploads: Uploads, name: str, values: Floats, scale: float, look: theme.
 
 
 def written(lines: tuple[str, ...], lit: Lit, state: AppState) -> tuple[tuple[str, ...], Lit]:
-    """Return a program in the window's notation, language and indexing."""
-    notation, indexing = state.options.notation, state.options.indexing
+    """Return a program in the window's language and indexing."""
+    indexing = state.options.indexing
     if state.options.language == "python":
-        return shown_lines(lines, notation, indexing), lit
-    loops = _julia(shown_lines(lines, notation), indexing)
+        return shown_lines(lines, indexing), lit
+    loops = _julia(shown_lines(lines), indexing)
     return loops.lines, {loops.line_of[n]: part for n, part in lit.items()}
 
 

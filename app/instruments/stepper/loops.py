@@ -1,7 +1,7 @@
 """The two algorithms as the lecture writes them: object order and image order, by their loops.
 
-The stepper shows these functions' sources while they run, in either notation, which is why they
-have no types and use code's words. The functions that they call are in loop_parts.py and
+The stepper shows these functions' sources while they run, with the lecture's letters for their
+words, which is why they have no types. The functions that they call are in loop_parts.py and
 raster_parts.py. Object order is rasterization, as graphics cards do it. Both take a Model, a Camera
 and a size (width, height), and return the same Canvas.
 """

@@ -153,7 +153,7 @@ def _variables(variables: tuple[Variable, ...], options: Options, fonts: Fonts) 
     """Draw the variables, each in a line."""
     if not variables or not imgui.begin_table("numbers", 2, imgui.TableFlags_.no_saved_settings):
         return
-    names = [symbols.program(one.name, options.notation) for one in variables]
+    names = [symbols.program(one.name) for one in variables]
     widest = max(imgui.calc_text_size(name).x for name in names)
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_fixed, widest)
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)

@@ -57,7 +57,7 @@ RAY_TRACING = (
 def whole_program(camera: Camera) -> tuple[Line, ...]:
     """Return ray tracing with the formulas of a camera, in Python, with pixels counted from 0.
 
-    Both notations name the camera `cam`.
+    The camera's name is `cam`.
     """
     place = "(j + 0.5) / width - 0.5", "-((i + 0.5) / height - 0.5)"
     if camera.viewport != (-0.5, 0.5, -0.5, 0.5):

@@ -43,7 +43,8 @@ def draw_questions(low: ImVec2, room: ImVec2, texture: int, size: Size, part: fl
 def _frame(at: ImVec2, side: float, texture: int | None) -> None:
     """Draw an eye, a frame and a ball; the image on the frame, or else a ray."""
     draw, width = imgui.get_window_draw_list(), theme.line_px(2.0)
-    plain, text, mark = (theme.u32(color) for color in (theme.PLAIN, theme.TEXT, theme.MARK))
+    plain, text = theme.u32(theme.PLAIN), theme.u32(theme.TEXT)
+    mark = theme.u32(theme.seen(theme.MARK))
     eye, pixel, hit = (at + point * side for point in (EYE, PIXEL, HIT))
     corners = [at + corner * side for corner in FRAME]
     draw.add_circle_filled(at + BALL * side, RADIUS * side, theme.u32(theme.BASIS["u"]))
@@ -57,6 +58,6 @@ def _frame(at: ImVec2, side: float, texture: int | None) -> None:
         draw.add_line(corners[number - 1], corner, text, width)
     draw.add_circle_filled(eye, 0.03 * side, text)
     if texture is None:
-        draw.add_line(eye, hit, theme.u32(theme.RAY), 1.2 * width)
+        draw.add_line(eye, hit, theme.u32(theme.seen(theme.RAY)), 1.2 * width)
         draw.add_circle_filled(pixel, 1.1 * width, mark)
         draw.add_circle_filled(hit, 1.3 * width, mark)

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from lucida.app.state.options.shared import Notation
 from lucida.app.ui.explaining import symbols
 from lucida.renderer.camera.pixels import Indexing
 
@@ -59,12 +58,10 @@ def _body(lines: tuple[str, ...], *headers: str) -> range:
 
 
 @cache
-def shown_lines(
-    lines: tuple[str, ...], notation: Notation, indexing: Indexing = Indexing.ARRAY
-) -> tuple[str, ...]:
-    """Return lines of the loops in a notation, with pixels counted as `indexing` does."""
+def shown_lines(lines: tuple[str, ...], indexing: Indexing = Indexing.ARRAY) -> tuple[str, ...]:
+    """Return lines of the loops with letters, with pixels counted as `indexing` does."""
     text = "\n".join(lines)
     if indexing is Indexing.LECTURE:
         for pattern, instead in _FROM_ONE:
             text = pattern.sub(instead, text)
-    return tuple(symbols.program(line, notation) for line in text.split("\n"))
+    return tuple(symbols.program(line) for line in text.split("\n"))

@@ -37,7 +37,7 @@ LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 
 def _stepping(step: panel.Step) -> Action:
     return Action(
-        "Lecture/Loop stepper",
+        "Instruments/In the loop stepper",
         f"Stepper: {step.told}",
         lambda window: window.view(StepperView).ask(step.wish),
         step.shown,

@@ -22,8 +22,8 @@ class CompareOptions(OptionPart):
     causes: mark differing pixels in the colours of their causes.
     """
 
-    mode: CompareMode = "wipe"
+    mode: CompareMode = "absolute"
     gain: Annotated[float, Range(1, LARGEST_GAIN)] = 1.0
     divider: Part = 0.5
     rise: Part = 1.0
-    causes: bool = False
+    causes: bool = True

@@ -38,7 +38,6 @@ Channel = Literal["color", "depth", "normal", "id"]
 Component = Literal["rgb", "red", "green", "blue"]
 Transfer = Literal["srgb", "linear"]
 Language = Literal["python", "julia"]
-Notation = Literal["book", "code"]
 
 
 @dataclass(frozen=True)
@@ -108,8 +107,7 @@ class SharedOptions:
 
     shadows, mirrors: effects that only image order has. one_based: pixels are counted from 1, as in
     the
-    lecture, or from 0, as in arrays. notation: the symbols of formulas and programs, see
-    explaining/symbols.py. language: of the shown programs. pixel_origin: the place of
+    lecture, or from 0, as in arrays. language: of the shown programs. pixel_origin: the place of
     K's whole numbers, pixels' centres or corners. bookmarks: in the order of their numbers.
     """
 
@@ -120,7 +118,6 @@ class SharedOptions:
     shadows: bool = False
     mirrors: bool = False
     one_based: bool = True
-    notation: Notation = "book"
     language: Language = "python"
     pixel_origin: PixelOrigin = "center"
     bookmarks: Annotated[tuple[Bookmark, ...], AtMost(MOST_BOOKMARKS)] = ()

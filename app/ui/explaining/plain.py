@@ -7,83 +7,45 @@ use; unknown ones keep their names without the backslash.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 SIGNS = {
     "cdot": "·", "times": "\u00d7", "to": "→", "infty": "∞", "leq": "<=", "geq": ">=", "neq": "!=",
     "quad": "  ", "qquad": "    ", "dots": "...", "ldots": "...", "pm": "±",
     "left": "", "right": "", "lfloor": "floor(", "rfloor": ")", "displaystyle": "",
-    ",": " ", ";": " ", ":": " ", "!": "", " ": " ", "{": "{", "}": "}", "|": "|", "\\": "; ",
+    ",": " ", ";": " ", ":": " ", "!": "", " ": " ", "|": "|", "\\": "; ",
 }  # fmt: skip
-_TOKEN = re.compile(r"\\([A-Za-z]+|.)|([{}])|(\^|_)|([^\\{}^_]+)", re.DOTALL)
-_STYLES = ("mathrm", "mathbb", "mathit", "text", "boldsymbol", "vec")
+# From the innermost group outwards: the first rule that matches is applied, until none does.
+_RULES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
+    (r"\\frac<><>", lambda found: f"{_bracketed(found[1])} / {_bracketed(found[2])}"),
+    (r"\\sqrt<>", r"sqrt(\1)"),
+    (r"\\mathbf\{(\w)\}", r"vec(\1)"),
+    (r"\\hat<>", r"\1/|\1|"),
+    (r"\\(?:text|fg|bg)color<><>", r"\2"),
+    (r"\\color<>", ""),
+    (r"\\(?:math[a-z]+|text|boldsymbol|vec)<>", r"\1"),
+    (r"\^(?:2|\{2\})", "²"),
+    (r"\^(?:3|\{3\})", "³"),
+    (r"([_^])<>", lambda found: found[1] + _bracketed(found[2])),
+    (r"<>", r"\1"),
+)
+_GROUPS = tuple((re.compile(rule.replace("<>", r"\{([^{}]*)\}")), text) for rule, text in _RULES)
+_BRACES = {r"\{": "\ue000", r"\}": "\ue001"}  # those that are shown
 
 
 def plain_math(latex: str) -> str:
     """Return the formula in one line of plain text."""
-    text = _LatexReader(latex).until_end()
-    return re.sub(r" {3,}", "  ", re.sub(r"\s*\n\s*", " ", text)).strip()
-
-
-class _LatexReader:
-    """Reads tokens from the left, with one method per construct."""
-
-    def __init__(self, latex: str) -> None:
-        self._tokens = list(_TOKEN.finditer(latex))
-        self._at = 0
-
-    def until_end(self, closing: bool = False) -> str:
-        """Return the text up to the end, or to the brace that closes the group."""
-        parts: list[str] = []
-        while self._at < len(self._tokens):
-            token = self._tokens[self._at]
-            if token[2] == "}" and closing:
-                self._at += 1
+    text, count = latex, 1
+    for brace, kept in _BRACES.items():
+        text = text.replace(brace, kept)
+    while count:
+        for rule, shown in _GROUPS:
+            text, count = rule.subn(shown, text, count=1)
+            if count:
                 break
-            parts.append(self._one())
-        return "".join(parts)
-
-    def _one(self) -> str:
-        token = self._tokens[self._at]
-        self._at += 1
-        command, brace, script, text = token.groups()
-        if text is not None:
-            return str(text)
-        if brace is not None:
-            return self.until_end(closing=True) if brace == "{" else ""
-        if script is not None:
-            raised = self._argument()
-            if script == "^" and raised in ("2", "3"):
-                return "²" if raised == "2" else "³"
-            return script + _bracketed(raised)
-        if command == "frac":
-            return f"{_bracketed(self._argument())} / {_bracketed(self._argument())}"
-        if command == "sqrt":
-            return f"sqrt({self._argument()})"
-        if command in ("textcolor", "color"):
-            self._argument()
-            return self._argument() if command == "textcolor" else ""
-        if command == "mathbf":
-            name = self._argument()
-            return f"vec({name})" if len(name) == 1 else name
-        if command == "hat":  # a unit vector
-            name = self._argument()
-            return f"{name}/|{name}|"
-        if command in _STYLES:
-            return self._argument()
-        return SIGNS.get(command, command)
-
-    def _argument(self) -> str:
-        """Read a group, a command, or the next character."""
-        if self._at >= len(self._tokens):
-            return ""
-        token = self._tokens[self._at]
-        if token[4] is None:
-            return self._one()
-        text = token[4].lstrip()
-        self._at += 1
-        if len(text) > 1:  # only its first character: the rest is read again
-            self._tokens.insert(self._at, _TOKEN.match(text[1:]))  # type: ignore[arg-type]
-        return text[:1]
+    text = re.sub(r"\\([A-Za-z]+|.)", lambda found: SIGNS.get(found[1], found[1]), text)
+    text = text.replace("\ue000", "{").replace("\ue001", "}")
+    return re.sub(r" {3,}", "  ", re.sub(r"\s*\n\s*", " ", text)).strip()
 
 
 def _bracketed(text: str) -> str:

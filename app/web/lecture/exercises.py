@@ -26,7 +26,6 @@ from lucida.app.lecture.inheriting import changed_view
 from lucida.app.lecture.model import Exercise, Step
 from lucida.app.lecture.text import Math, Paragraph, escaped, parse
 from lucida.app.state.kept_lecture import Judgement
-from lucida.app.state.options.shared import Notation
 from lucida.app.ui.explaining import symbols
 from lucida.app.web.lecture.drawn import paper
 from lucida.app.web.lecture.mathml import VECTORS
@@ -148,32 +147,30 @@ def numbers(values: ArrayLike) -> list[float | None]:
     return [one if math.isfinite(one) else None for one in np.ravel(values).astype(float).tolist()]
 
 
-def form(
-    number: str, task: Exercise, data: dict[str, Any], notation: Notation, answers: bool
-) -> str:
+def form(number: str, task: Exercise, data: dict[str, Any], answers: bool) -> str:
     """Return an exercise of a step as HTML.
 
     data: as data_of() returns it. answers: with its solution.
     """
-    asked = f'<div class="asked">{written(task.question, notation)}</div>\n'
+    asked = f'<div class="asked">{written(task.question)}</div>\n'
     if isinstance(task, ChoiceExercise):
         options = (
             f'<li><button type="button" data-option="{place}" aria-pressed="false"'
             f"{_name(option.text)}>"
-            f"{_inside(written(option.text, notation))}</button></li>\n"
+            f"{_inside(written(option.text))}</button></li>\n"
             for place, option in enumerate(task.options)
         )
         asked += f'<ol class="options">{"".join(options)}</ol>\n'
     elif not isinstance(task, HideExercise):
-        asked += _fields(number, task, notation)
+        asked += _fields(number, task)
     solution = ""
     if answers:
         solution = (
             '<details class="solution"><summary>Show the solution</summary>'
-            f"{written(task.solution(), notation)}</details>\n"
+            f"{written(task.solution())}</details>\n"
         )
     replies = "".join(
-        f'<template data-reply="{place}">{written(text, notation)}</template>\n'
+        f'<template data-reply="{place}">{written(text)}</template>\n'
         for text, place in data["replies"].items()
     )
     return (
@@ -183,10 +180,10 @@ def form(
     )
 
 
-def _fields(number: str, task: TypedExercise, notation: Notation) -> str:
+def _fields(number: str, task: TypedExercise) -> str:
     rows = []
     for place, name in enumerate(task.fields):
-        shown = symbols.answer(name, notation)
+        shown = symbols.answer(name)
         word, _, letter = shown.rpartition(" ")
         if letter in BOLD and word in ("", "origin", "direction"):
             color = f' class="vector-{letter}"' if letter in VECTORS else ""

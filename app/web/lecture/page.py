@@ -133,7 +133,6 @@ class _Step:
     ) -> None:
         self._name, self._step, self._answers, self._kind = name, step, answers, kind
         self._state = state_of(step, AppState.for_scene(step.scene, step.view))
-        self._notation = self._state.options.notation
         size = self._state.images.resolution or SIZE
         self.task = exercises.data_of(step, explained_by, size)
         self.figure = figures.of(step, self._state) if figures else None
@@ -142,16 +141,16 @@ class _Step:
     def html(self, stills: Sequence[Still]) -> str:
         """Return the step. stills: its pictures."""
         number, step = self._name, self._step
-        text = blocks_html(step.blocks, self._notation)
+        text = blocks_html(step.blocks)
         asked = figure = ""
         if step.exercise is not None and self.task is not None:
-            asked = exercises.form(number, step.exercise, self.task, self._notation, self._answers)
+            asked = exercises.form(number, step.exercise, self.task, self._answers)
         if self.figure is not None:
             figure = f'<div class="live-figure" data-step="{number}" hidden></div>\n'
             if not self.figure["open"]:
                 figure = f'<details class="try"><summary>Try it</summary>{figure}</details>\n'
         if step.notes and self._answers:
-            notes = blocks_html(step.notes, self._notation)
+            notes = blocks_html(step.notes)
             asked += f'<div class="notes" hidden>{notes}</div>\n'
         part = f'<p class="part">{plain(step.part)}</p>\n' if step.part else ""
         pictures = "".join(map(self._still, stills))

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from html import escape
 
-from lucida.app.lecture.notation import in_notation
 from lucida.app.lecture.text import (
     Block,
     Code,
@@ -19,7 +18,6 @@ from lucida.app.lecture.text import (
     Words,
     parse,
 )
-from lucida.app.state.options.shared import Notation
 from lucida.app.web.lecture.mathml import VECTORS, displayed, inline
 from lucida.renderer.system.errors import visible
 
@@ -29,18 +27,18 @@ def plain(text: str) -> str:
     return escape(visible(text))
 
 
-def written(text: str, notation: Notation) -> str:
+def written(text: str) -> str:
     """Return a lecture's text, such as a reply, as HTML."""
-    return blocks_html(parse(text), notation)
+    return blocks_html(parse(text))
 
 
 # A formula, and what must not begin the next line.
 BEFORE_STOP = re.compile(r"(<math\b(?:(?!</math>).)*</math>)([.,;:?!)]+)", re.DOTALL)
 
 
-def blocks_html(blocks: tuple[Block, ...], notation: Notation) -> str:
+def blocks_html(blocks: tuple[Block, ...]) -> str:
     """Return a text as HTML."""
-    return "".join(map(_block, in_notation(blocks, notation)))
+    return "".join(map(_block, blocks))
 
 
 def _block(block: Block) -> str:

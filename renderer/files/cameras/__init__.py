@@ -4,8 +4,15 @@
 R and t are in renderer/camera/intrinsics.py.
 """
 
-from lucida.renderer.files.cameras.chosen import read_chosen, without_choice
-from lucida.renderer.files.cameras.formats import FORMATS, format_named, read_cameras, written
+from lucida.renderer.files.cameras.formats import (
+    FORMATS,
+    format_named,
+    read_cameras,
+    read_chosen,
+    save_files,
+    without_choice,
+    written,
+)
 from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
 
@@ -18,6 +25,7 @@ __all__ = [
     "one_of",
     "read_cameras",
     "read_chosen",
+    "save_files",
     "without_choice",
     "written",
 ]

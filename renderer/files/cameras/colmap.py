@@ -22,9 +22,9 @@ from lucida.renderer.files.cameras import colmap_lenses
 from lucida.renderer.files.cameras import colmap_records as records
 from lucida.renderer.files.cameras.colmap_lenses import model_for
 from lucida.renderer.files.cameras.distortion import lens_of
-from lucida.renderer.files.cameras.entries import ORIGIN_TOLD, in_image
+from lucida.renderer.files.cameras.entries import ORIGIN_TOLD
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image
 from lucida.renderer.files.cameras.rigid import pinhole
 from lucida.renderer.files.cameras.rotations import quaternion_of, rotation_of
 from lucida.renderer.files.reading import naming, read_file

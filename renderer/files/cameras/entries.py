@@ -1,18 +1,19 @@
-"""Checked entries of other programs' files: numbers, sizes and poses, each by its name."""
+"""The entries of other programs' files, each by its name: checked numbers, sizes and poses, and the
+keys that are not used.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, listed, number
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin, matrix
-from lucida.renderer.files.cameras.given import Options
-from lucida.renderer.files.cameras.posed import PosedCamera
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError, errors_as
 
@@ -22,6 +23,7 @@ ORIGIN_TOLD: dict[PixelOrigin, str] = {
     "corner": "whole numbers stand at the pixels' corners, centres at .5",
 }
 
+SHOWN = 8  # unused keys that a note names; the others are counted
 _LAST = (0.0, 0.0, 0.0, 1.0)  # row of an affine map
 _ROUNDED = 1e-4  # tolerance for a rotation in float32, or with four digits
 
@@ -84,27 +86,37 @@ def is_rotation(linear: Floats) -> bool:
     return bool(np.abs(products - np.eye(3)).max() < _ROUNDED and (np.linalg.det(linear) > 0).all())
 
 
-def single(cameras: Sequence[PosedCamera], what: str) -> PosedCamera:
-    """Return the camera for a file that holds only one. Raises LucidaError."""
-    if len(cameras) != 1:
-        problem = f"{what} holds one camera, not {len(cameras)}"
-        raise LucidaError("", problem, "choose one with --frame or --image")
-    return cameras[0]
+def plain(name: str) -> str:
+    """Return a key in lower case, letters and digits only."""
+    return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
-def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size | None]:
-    """Return the camera fitted to its image's size, and that size.
+def entries_of(tree: Any, prefix: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield all values of nested tables, named like "cam0.size" and "cameras.0.size".
 
-    The size is its own, or the requested one; None if neither is known.
+    A table with data is a matrix, and one value.
     """
-    size = posed.size or options.size
-    camera = posed.camera.fitted(size) if posed.fit and size is not None else posed.camera
-    return camera, size
+    for name, value in tree.items() if isinstance(tree, dict) else enumerate(tree):
+        is_list = isinstance(value, list) and any(isinstance(part, dict) for part in value)
+        if is_list or (isinstance(value, dict) and "data" not in value):
+            yield from entries_of(value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", value
 
 
-def in_image(posed: PosedCamera, options: Options, target: str) -> tuple[Camera, Size]:
-    """Like sized(), for a format that needs a size. Raises LucidaError if there is none."""
-    camera, size = sized(posed, options)
-    if size is None:
-        raise LucidaError("size", f"is not known, and {target} needs one", "give --size WxH")
-    return camera, check_size(size)
+def numbers_in(value: Any) -> Floats:
+    """Return the numbers of a value, however nested; none if it holds anything else."""
+    try:
+        numbers = np.ravel(value)
+    except (TypeError, ValueError):
+        return np.zeros(0)
+    return numbers.astype(float) if numbers.dtype.kind in "iufb" else np.zeros(0)
+
+
+def notes_on(names: Iterable[str]) -> tuple[str, ...]:
+    """Return a note that names the keys that are not used; none if there are none."""
+    unused = list(dict.fromkeys(names))
+    if not unused:
+        return ()
+    more = f" and {len(unused) - SHOWN} more" if len(unused) > SHOWN else ""
+    return (f"not used: {', '.join(unused[:SHOWN])}{more}",)

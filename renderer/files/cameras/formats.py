@@ -13,7 +13,9 @@ Each raises LucidaError; a camera that the format cannot hold is never written.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import contextlib
+import os
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
@@ -21,8 +23,9 @@ from types import ModuleType
 
 from lucida.renderer.files.cameras.distortion import check_held, without_lens
 from lucida.renderer.files.cameras.given import Given, Options, from_json, given
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
 from lucida.renderer.files.reading import naming, suggestion
+from lucida.renderer.system.atomic import atomic_write, check_writable
 from lucida.renderer.system.errors import LucidaError, under
 
 
@@ -43,12 +46,6 @@ class Format:
     def module(self) -> ModuleType:
         return import_module(f"lucida.renderer.files.cameras.{self.name}")
 
-    @property
-    def lenses(self) -> Collection[str]:
-        """Models of Lens that the format can hold."""
-        models: Collection[str] = getattr(self.module, "LENSES", ())
-        return models
-
 
 _FRAMES = "frames with a transform_matrix"
 _MATRICES = "a view matrix and a projection matrix of 16 numbers"
@@ -61,21 +58,18 @@ FORMATS = (
     Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, (".json",)),
     Format("opengl", "OpenGL's view and projection matrices", _MATRICES, (".txt",)),
     Format("opencv", "OpenCV's K, R and t, or a calibration of its family", _K, (".yml",)),
-    Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf",)),
+    Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf", ".glb")),
 )
 
-_UNKNOWN = "is not a recognised camera format"
 _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt")
 
 
 def format_named(name: str) -> Format:
     """Return the format with that name. Raises LucidaError if there is none."""
-    for entry in FORMATS:
-        if entry.name == name:
-            return entry
-    raise LucidaError(
-        "format", f"{name!r} is unknown", suggestion(name, [entry.name for entry in FORMATS])
-    )
+    known = {entry.name: entry for entry in FORMATS}
+    if name not in known:
+        raise LucidaError("format", f"{name!r} is unknown", suggestion(name, known))
+    return known[name]
 
 
 def read_cameras(
@@ -87,13 +81,47 @@ def read_cameras(
     file.
     """
     found = source if isinstance(source, Given) else given(source)
-    options = options or Options()
     with naming(found.name):
         entry = format_named(format) if format else recognised(found)
-        cameras: CameraSet = entry.module.read(found, options)
+        cameras: CameraSet = entry.module.read(found, options or Options())
         if not cameras.cameras:
             raise LucidaError("", f"holds no camera ({entry.name})", "give another file")
     return cameras
+
+
+def without_choice(source: str) -> tuple[str, str]:
+    """Split `transforms.json#12` or `sparse/0#IMG_7.jpg` into the file, and the camera's name or
+    number after the `#` ("" for none).
+
+    If the whole of `source` is an existing file's name, it is that file, including any `#`.
+    """
+    signs = [place for place in range(len(source) - 1, 0, -1) if source[place] == "#"]
+    for end in (len(source), *signs):
+        if os.path.exists(source[:end]):  # Path.exists() raises for a long name
+            return source[:end], source[end + 1 :]
+    return (source[: signs[0]], source[signs[0] + 1 :]) if signs else (source, "")
+
+
+def read_chosen(
+    source: Given,
+    which: str = "",
+    format: str = "",
+    options: Options | None = None,
+    several: bool = False,
+) -> tuple[CameraSet, PosedCamera | None]:
+    """Read all cameras of a file. Return them, and the selected one: see one_of().
+
+    several: without `which`, return None as the selected one if the file holds more than one;
+    otherwise that is an error. Raises LucidaError.
+    """
+    found = read_cameras(source, format, options)
+    if several and not which and len(found.cameras) > 1:
+        return found, None
+    try:
+        return found, one_of(found.cameras, which)
+    except LucidaError as error:
+        example = "" if source.path is None else f", as in {source.name}#0"
+        raise LucidaError("", error.problem, error.remedy + example, source.name) from None
 
 
 def recognised(found: Given) -> Format:
@@ -109,7 +137,8 @@ def recognised(found: Given) -> Format:
         remedy = "give the folder of a COLMAP model, such as sparse/0, or a file of cameras"
         raise LucidaError("", "is a folder without cameras", remedy)
     wanted = ", ".join(f"{entry.needs} ({entry.name})" for entry in FORMATS)
-    raise LucidaError("", _UNKNOWN, f"export glTF or COLMAP there, or give {wanted}")
+    remedy = f"export glTF or COLMAP there, or give {wanted}"
+    raise LucidaError("", "is not a recognised camera format", remedy)
 
 
 def written(
@@ -117,20 +146,47 @@ def written(
 ) -> dict[str, bytes]:
     """Return cameras as files of a format: by name within a folder, or one file under "".
 
-    Raises LucidaError if the format cannot hold them.
+    Raises LucidaError if the format cannot hold them: a lens is never dropped silently.
     """
     entry, options = format_named(format), options or Options()
-    held = [_held(posed, entry, options) for posed in cameras]
-    files: dict[str, bytes] = entry.module.write(held, options)
+    if options.ignore_distortion:
+        cameras = [without_lens(posed) for posed in cameras]
+    for posed in cameras:
+        with under(posed.name):
+            models = getattr(entry.module, "LENSES", ())
+            check_held(posed.camera, posed.size or options.size, models, entry.name)
+    files: dict[str, bytes] = entry.module.write(cameras, options)
     return files
 
 
-def _held(posed: PosedCamera, entry: Format, options: Options) -> PosedCamera:
-    """Return the camera, without its lens if the options ignore it. Raises LucidaError for a lens
-    that the format cannot hold: a lens is never dropped silently.
+def save_files(path: Path, files: Mapping[str, bytes]) -> None:
+    """Write one file (named "") or a folder of files.
+
+    Raises LucidaError, and leaves everything as it was, if one of them cannot be written.
     """
-    if options.ignore_distortion:
-        return without_lens(posed)
-    with under(posed.name):
-        check_held(posed.camera, posed.size or options.size, entry.lenses, entry.name)
-    return posed
+    if "" in files:
+        with atomic_write(path) as file:
+            file.write(files[""])
+        return
+    is_new = not path.is_dir()
+    if is_new:
+        check_writable(path)
+        try:
+            path.mkdir()
+        except OSError:
+            raise LucidaError("", "is a file", "give the name of a folder", str(path)) from None
+    others = [n for n in sorted(os.listdir(path)) if n not in files and not n.startswith(".")]
+    if others:
+        problem = f"holds other files, such as {others[0]!r}"
+        raise LucidaError("", problem, "give a folder of its own", str(path))
+    try:
+        with contextlib.ExitStack() as stack:  # the files are renamed when all are written
+            for name, data in files.items():
+                file = stack.enter_context(atomic_write(path / name))
+                file.write(data)
+                file.flush()  # a full disk shows before any file is replaced
+    except BaseException:
+        if is_new:
+            with contextlib.suppress(OSError):
+                path.rmdir()
+        raise

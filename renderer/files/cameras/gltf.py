@@ -1,4 +1,4 @@
-"""The cameras of glTF files, .gltf and .glb, each at its node; and writing a .gltf of cameras only.
+"""The cameras of glTF files, .gltf and .glb, each at its node; and writing files with nothing else.
 
 A glTF camera is centred and has no skew; it does not store an image size.
 Source: Khronos, glTF 2.0 Specification, "Cameras".
@@ -9,19 +9,17 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import listed
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.files.cameras.entries import sized
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, sized
 from lucida.renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
 from lucida.renderer.files.models.gltf import placed_nodes
 from lucida.renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
-from lucida.renderer.files.models.gltf_file import Gltf, parse_gltf
+from lucida.renderer.files.models.gltf_file import Gltf, glb_bytes, parse_gltf
 from lucida.renderer.scene.limits import OBJECTS
 from lucida.renderer.system.errors import LucidaError
 
@@ -48,13 +46,11 @@ def read(given: Given, options: Options) -> CameraSet:
             raise LucidaError("nodes", f"hold more than {OBJECTS} cameras", "split the file")
         found = gltf_camera(tree, placed)
         shown.add(placed.node.camera)
-        camera, fit = found.camera, not found.has_aspect
-        if fit and options.size is not None:
-            camera = _as_wide(camera, options.size[0] / options.size[1])
-        elif fit:
+        fit = not found.has_aspect
+        if fit:
             name = found.name or len(cameras)
             taken.append(f"{name!r} has no aspectRatio: its yfov is of an image wider than high")
-        cameras.append(PosedCamera(camera, options.size, found.name, fit=fit))
+        cameras.append(PosedCamera(found.camera, options.size, found.name, fit=fit))
     notes = tuple(_notes(tree, shown))
     return CameraSet("gltf", tuple(cameras), (*taken, *notes), notes=notes)
 
@@ -83,6 +79,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         "nodes": nodes,
         "cameras": lenses,
     }
+    if options.is_binary:
+        return {"": glb_bytes(tree)}
     return {"": (json.dumps(tree, indent=1, ensure_ascii=False) + "\n").encode()}
 
 
@@ -129,11 +127,3 @@ def camera_table(camera: Camera, size: Size | None) -> dict[str, Any]:
     if made:
         table["extras"] = {UNCLIPPED: made}
     return table
-
-
-def _as_wide(camera: Camera, aspect: float) -> Camera:
-    """Return a camera with a square viewport, fitted to an image of this aspect ratio. yfov
-    stays.
-    """
-    _, _, bottom, top = camera.viewport
-    return replace(camera, viewport=(bottom * aspect, top * aspect, bottom, top))

@@ -8,7 +8,6 @@ Cameras._generate_rays_from_coords(); instant-ngp, "NeRF dataset tips" and commo
 
 from __future__ import annotations
 
-import contextlib
 import json
 import math
 import re
@@ -27,15 +26,14 @@ from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, FileLens, le
 from lucida.renderer.files.cameras.entries import (
     ORIGIN_TOLD,
     affine,
-    in_image,
     is_rotation,
+    notes_on,
     number_of,
     size_of,
 )
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image
 from lucida.renderer.files.cameras.rigid import pinhole, pose_of
-from lucida.renderer.files.cameras.unused import notes_on
 from lucida.renderer.system.errors import LucidaError, under
 
 Table = Mapping[str, Any]
@@ -64,7 +62,6 @@ _USED = {
     *_OPENCV,
 }
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
-_SHARED = 1e-12  # relative: frames' numbers that differ by less are written once
 _ANY_SIZE = (1000, 1000)  # of an image of which only the angle is known
 
 
@@ -77,22 +74,18 @@ def recognises(given: Given) -> bool:
 
 
 def read(given: Given, options: Options) -> CameraSet:
-    table = given.json
-    if not isinstance(table, dict):
-        raise LucidaError("", "is no JSON object", "give a transforms.json")
+    table = given.json if isinstance(given.json, dict) else {}
     frames = table.get("frames")
-    if not isinstance(frames, list) or not frames:
-        raise LucidaError("frames", "are missing, or no list", "give frames")
-    if not all(isinstance(frame, dict) for frame in frames):
-        raise LucidaError("frames", "are no JSON objects", "give each a transform_matrix")
+    if not (isinstance(frames, list) and frames and all(isinstance(f, dict) for f in frames)):
+        problem = "are missing, or no list of JSON objects"
+        raise LucidaError("frames", problem, "give frames, each with a transform_matrix")
     folder = given.path and given.path.parent
-    size, sizing = _size_for_all(table, frames, folder, options)
     origin = options.pixel_origin or "corner"
     cameras = []
     tables = [{**table, **frame} for frame in frames]
     for i, whole in enumerate(tables):
         try:
-            cameras.append(_camera(whole, size, folder, options))
+            cameras.append(_camera(whole, folder, options))
         except LucidaError as error:
             inside = error.field in ("transform_matrix", *frames[i])
             raise error.within(f"frames[{i}]") if inside else error from None
@@ -102,9 +95,10 @@ def read(given: Given, options: Options) -> CameraSet:
         taken.append("transform_matrix is no rotation, and held as it is")
     if any(map(_disagree, tables)):
         taken.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
+    notes = ["no w and h: a square image is taken"] * (cameras[0].size is None)
     unused = (name for part in (table, *frames) for name in part if name not in _USED)
-    notes = (*filter(None, [sizing]), *notes_on(unused))
-    return CameraSet("nerf", tuple(cameras), (*taken, *notes), notes=notes)
+    notes += notes_on(unused)
+    return CameraSet("nerf", tuple(cameras), (*taken, *notes), notes=tuple(notes))
 
 
 def _disagree(table: Table) -> bool:
@@ -124,37 +118,12 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     shared = {
         name: value
         for name, value in (frames[0].items() if frames else ())
-        if isinstance(value, int | float)
-        and all(math.isclose(frame[name], value, rel_tol=_SHARED) for frame in frames)
+        if isinstance(value, int | float) and all(frame[name] == value for frame in frames)
     }
     own = [{name: frame[name] for name in frame if name not in shared} for frame in frames]
     is_fisheye = {"is_fisheye": True} if model == "OPENCV_FISHEYE" else {}  # for instant-ngp
     table = {"camera_model": model, **is_fisheye, **shared, "frames": own}
     return {"": (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()}
-
-
-def _size_for_all(
-    table: Table, frames: Sequence[Table], folder: Path | None, options: Options
-) -> tuple[Size | None, str]:
-    """Return the size for frames that have none, and its origin in words."""
-    lacking = [frame for frame in frames if not {"w", "h"} & {*table, *frame}]
-    if not lacking or options.size is not None:
-        return options.size, ""
-    image = _image(lacking[0].get("file_path", ""), folder)
-    if found := _size_of_image(image):
-        return found, f"no w and h: the size of {image}, {found[0]} x {found[1]}"
-    return None, "no w and h, nor an image: a square one is taken"
-
-
-def _size_of_image(path: str) -> Size | None:
-    """Return the size of an image; None if it cannot be read, which viewers of it report."""
-    from PIL import Image
-
-    with contextlib.suppress(Exception):  # Pillow raises what it likes for a damaged file
-        if Path(path).is_file():  # reading from a pipe might never end
-            with Image.open(path) as image:
-                return image.size
-    return None
 
 
 def _image(name: object, folder: Path | None) -> str:
@@ -167,13 +136,14 @@ def _image(name: object, folder: Path | None) -> str:
     return str(path if _ENDING.search(path.name) else path.with_name(f"{path.name}.png"))
 
 
-def _camera(table: Table, size: Size | None, folder: Path | None, options: Options) -> PosedCamera:
+def _camera(table: Table, folder: Path | None, options: Options) -> PosedCamera:
     """Return the camera of a frame. table: of the file and of the frame. Raises LucidaError."""
     name = table.get("file_path", "")
     image = _image(name, folder)
     if "transform_matrix" not in table:
         raise LucidaError("transform_matrix", "is missing", "give 4 x 4 numbers")
     world_from_camera = affine("transform_matrix", table["transform_matrix"])
+    size = options.size
     if "w" in table or "h" in table:
         for side in "wh":
             if side not in table:
@@ -248,7 +218,7 @@ def _model_for(cameras: Sequence[PosedCamera]) -> str:
         return "OPENCV"
     if len(kinds) > 1:
         problem = f"is {' and '.join(sorted(kinds))}, and a transforms.json has one for all frames"
-        raise LucidaError("camera_model", problem, "choose cameras with --frame or --image")
+        raise LucidaError("camera_model", problem, "write them one by one")
     return kinds.pop() if kinds else "PINHOLE"
 
 

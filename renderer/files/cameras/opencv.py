@@ -1,7 +1,7 @@
 """Calibration files of OpenCV's family: OpenCV, ROS, ORB-SLAM, stella_vslam, VINS, Kalibr, and K, R
 and t as they are printed.
 
-storage.py parses the notations, opencv_keys.py knows the names.
+notations.py parses the notations, opencv_keys.py knows the names.
 Source: OpenCV's documentation, "Camera calibration and 3D reconstruction".
 """
 
@@ -23,38 +23,31 @@ from lucida.renderer.camera.intrinsics import (
     pixel_offset,
 )
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras.entries import (
-    ORIGIN_TOLD,
-    affine,
-    flat,
-    in_image,
-    is_rotation,
-    number_of,
-    side_of,
-    single,
-    size_of,
-)
+from lucida.renderer.files.cameras import entries
+from lucida.renderer.files.cameras.entries import ORIGIN_TOLD, affine, flat, number_of, plain
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.literals import assigned
-from lucida.renderer.files.cameras.opencv_keys import Keys, are_cameras, bare, cameras_in
-from lucida.renderer.files.cameras.opencv_lens import lens_in, lens_table
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
-from lucida.renderer.files.cameras.rigid import rigid
-from lucida.renderer.files.cameras.rotations import from_vector, to_vector
-from lucida.renderer.files.cameras.storage import (
+from lucida.renderer.files.cameras.notations import (
     MOST_BYTES,
     Table,
+    assigned,
     is_ini,
     table_in,
     to_yaml,
 )
-from lucida.renderer.files.cameras.unused import entries_of, notes_on, numbers_in
+from lucida.renderer.files.cameras.opencv_keys import (
+    Keys,
+    are_cameras,
+    cameras_in,
+    lens_in,
+    lens_table,
+)
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image, one_of
+from lucida.renderer.files.cameras.rigid import rigid
+from lucida.renderer.files.cameras.rotations import from_vector, to_vector
 from lucida.renderer.system.errors import LucidaError
 
 LENSES = ("brown", "fisheye", "equidistant")
 _FOCAL = ("fx", "fy", "cx", "cy")
-_STRAIGHT = 1e-4  # tolerance of a rotation that is none
-_NO_POSE = 1e-9  # a smaller pose is rounding
 
 _Pose = tuple[str, Floats]  # the name in the file, for errors, and camera_from_world
 _Entry = tuple[str, Any] | None  # a key of the file, and its value
@@ -64,15 +57,15 @@ def recognises(given: Given) -> bool:
     if len(given.data) > MOST_BYTES:
         return given.ending in (".yml", ".yaml")  # read() checks the size
     if isinstance(given.json, dict):
-        entries = entries_of(given.json)
-        names = [name for name, x in entries if isinstance(x, dict) or numbers_in(x).size]
+        found = entries.entries_of(given.json)
+        names = [name for name, x in found if isinstance(x, dict) or entries.numbers_in(x).size]
     elif given.is_text:
         if "<opencv_storage" in given.text or is_ini(given.text):
             return True
         names = list(assigned(given.text))
     else:
         return False
-    return are_cameras({bare(name.rpartition(".")[2]) for name in names})
+    return are_cameras({plain(name.rpartition(".")[2]) for name in names})
 
 
 def read(given: Given, options: Options) -> CameraSet:
@@ -88,10 +81,15 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
     pose = np.eye(4)
     found, unused = cameras_in(table)
     for name, keys in found.items():
+        rectified: tuple[str, ...] = ()
+        if "P" in keys and not {"K", "fx"}.isdisjoint(keys):
+            # In ROS, P is of the rectified image, into which R rotates.
+            rectified = ("P",) if "t" in keys else ("P", "R")
+        others = [keys.pop(role)[0] for role in rectified if role in keys]
         lens, ignored = lens_in(keys, options)
         intrinsics = _intrinsics(keys)
         size, sizing = _size(keys, intrinsics[1], options, origin)
-        poses, told, others = _poses(keys, pose)
+        poses, told, more = _poses(keys, pose)
         pose = poses[0][1]
         name = (name if len(found) > 1 else "") or str(keys.get("name", ("", ""))[1] or "")
         for called, pose_of_one in poses:
@@ -99,15 +97,15 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
             own = name if len(poses) == 1 else called
             cameras.append(PosedCamera(camera, size, own, ignored=ignored))
         taken |= dict.fromkeys([told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]])
-        if not all(is_rotation(pose[:3, :3]) for _, pose in poses):
+        if not all(entries.is_rotation(pose[:3, :3]) for _, pose in poses):
             taken["R is no rotation, and held as it is"] = None
-        notes |= dict.fromkeys([*filter(None, [sizing]), *notes_on(others)])
+        notes |= dict.fromkeys([*filter(None, [sizing]), *entries.notes_on([*others, *more])])
     notes |= dict.fromkeys(unused)
     return CameraSet("opencv", tuple(cameras), (*taken, *notes), notes=tuple(notes))
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
-    camera, size = in_image(single(cameras, "a file of OpenCV"), options, "OpenCV")
+    camera, size = in_image(one_of(cameras), options, "OpenCV")
     if camera.lens is not None:
         camera = rigid(camera, "OpenCV")
     origin = options.pixel_origin or "center"
@@ -174,10 +172,10 @@ def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, s
     if "size" in keys:
         name, value = keys["size"]
         width, height = flat(name, value, 2).tolist()
-        return size_of(name, width, height), ""
+        return entries.size_of(name, width, height), ""
     wide, high = keys.get("width"), keys.get("height")
     if wide and high:
-        return size_of(wide[0], side_of(*wide), side_of(*high)), ""
+        return entries.size_of(wide[0], entries.side_of(*wide), entries.side_of(*high)), ""
     if wide or high:
         missing = "image_height" if wide else "image_width"
         raise LucidaError(missing, "is missing", "give both, or neither and --size WxH")
@@ -187,7 +185,7 @@ def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, s
         middle = 2 * (K[:2, 2] / K[2, 2] + pixel_offset(origin))
     if not ((middle > 0.5) & (middle < 1e9)).all():
         raise LucidaError("image_width", "is missing", "give the image's size, or --size WxH")
-    size = size_of("image_width", *(float(np.round(side)) for side in middle))
+    size = entries.size_of("image_width", *(float(np.round(side)) for side in middle))
     told = f"no image size is given: {size[0]} x {size[1]}, whose middle is the principal point"
     return size, told
 
@@ -228,39 +226,25 @@ def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
     if found := keys.get("to world"):
         pose = as_camera_from_world(affine(*found))
         yield found[0], pose, f"{found[0]} takes the camera's points to the world"
-    if {"R to world", "t to world"} & keys.keys():
-        what = "take the camera's points to the world"
-        name, pose, told = _parts(keys.get("R to world"), None, keys.get("t to world"), what)
+    turned, moved = keys.get("R to world"), keys.get("t to world")
+    if turned or moved:
+        name, pose, told = _parts(turned, moved, "take the camera's points to the world")
         yield name, as_camera_from_world(pose), told
-    turned, moved, rectified = keys.get("R"), keys.get("t"), keys.get("rectification")
-    has_K, in_pair = not {"K", "fx"}.isdisjoint(keys), np.eye(4)
-    if (found := keys.get("P")) and not (has_K and not numbers_in(found[1]).any()):
-        pose = _projected(*found)[1]
-        if has_K and not moved and np.allclose(pose[:3, :3], np.eye(3), rtol=0, atol=_STRAIGHT):
-            # ROS: R rotates into the rectified image, which P is for.
-            in_pair, rectified, turned = pose, rectified or turned, None
-        else:
-            yield found[0], pose, f"K, R and t out of {found[0]}"
-    if rectified:
-        R = flat(*rectified, 9).reshape(3, 3)
-        in_pair = as_camera_from_world(_rigid(R, np.zeros(3))) @ in_pair
-    if not np.allclose(in_pair, np.eye(4), rtol=0, atol=_NO_POSE):
-        names = " and ".join(entry[0] for entry in (rectified, found) if entry)
-        yield names, in_pair, f"{names}: the world is the frame of the rectified images"
-    if turned or moved or "rvec" in keys:
-        yield _parts(turned, keys.get("rvec"), moved, "take world points to the camera")
+    turned, moved = keys.get("R") or keys.get("rvec"), keys.get("t")
+    if found := keys.get("P"):
+        yield found[0], _projected(*found)[1], f"K, R and t out of {found[0]}"
+    if turned or moved:
+        yield _parts(turned, moved, "take world points to the camera")
 
 
-def _parts(turned: _Entry, vector: _Entry, moved: _Entry, what: str) -> tuple[str, Floats, str]:
+def _parts(turned: _Entry, moved: _Entry, what: str) -> tuple[str, Floats, str]:
     """Return the name, the matrix and the origin in words of a rotation and a translation."""
     R = np.eye(3)
     if turned:
         numbers = flat(*turned, 9, 3)
         R = numbers.reshape(3, 3) if numbers.size == 9 else from_vector(numbers)
-    elif vector:
-        R = from_vector(flat(*vector, 3))
     t = flat(*moved, 3) if moved else np.zeros(3)
-    used = [entry[0] for entry in (turned or vector, moved) if entry]
+    used = [entry[0] for entry in (turned, moved) if entry]
     lacking = "" if len(used) == 2 else f"; no {'rotation' if moved else 'translation'}"
     return used[0], _rigid(R, t), f"{' and '.join(used)} {what}{lacking}"
 

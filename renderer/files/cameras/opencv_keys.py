@@ -1,4 +1,5 @@
-"""The key names of calibration files in OpenCV's family, in one table for all of its programs.
+"""The key names of calibration files in OpenCV's family, in one table for all of its programs,
+and the names of their lenses.
 
 A file's keys become roles, for each of its cameras. Sources: OpenCV's samples calibration.cpp and
 stereo_calib.cpp; ROS's CameraInfo and camera_calibration_parsers; ORB-SLAM3's
@@ -13,9 +14,13 @@ from typing import Any
 
 import numpy as np
 
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras import distortion
 from lucida.renderer.files.cameras.distortion import NAMES
-from lucida.renderer.files.cameras.storage import Table
-from lucida.renderer.files.cameras.unused import entries_of, notes_on, plain
+from lucida.renderer.files.cameras.entries import entries_of, flat, notes_on, number_of, plain
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.files.cameras.notations import Table
+from lucida.renderer.system.errors import LucidaError
 
 Keys = dict[str, tuple[str, Any]]  # by role: the file's name for it, and its value
 
@@ -29,7 +34,6 @@ _NAMES = {
     "width": "imagewidth width w cameracols",
     "height": "imageheight height h camerarows",
     "R": "r rotation rotationmatrix",
-    "rectification": "rectificationmatrix rectification",
     "rvec": "rvec rodrigues rotationvector",
     "t": "t tvec translation translationvector",
     "from world": "extrinsics extrinsic extrinsicmatrix rt camerafromworld worldtocamera world2cam "
@@ -66,6 +70,18 @@ _STEREO = re.compile(
 )
 _SIDES = {"1": "left", "2": "right"}
 _OF_FIRST = {"to world", "R to world", "t to world"}  # poses of the first of several cameras
+# Lens's model by the programs' names for it, in lower case, letters and digits only.
+_PINHOLES = """
+0 none plumbbob rationalpolynomial radtan radialtangential opencv pinhole rectified perspective
+"""
+_MODELS = {
+    **dict.fromkeys(["", *_PINHOLES.split()], ""),
+    **dict.fromkeys(["1", "equidistant", "fisheye"], "fisheye"),
+    **dict.fromkeys(["kannalabrandt", "kannalabrandt4", "kannalabrandt8"], "fisheye"),
+    "fov": "fov",
+}
+_MODEL_ROLES = ("camera model", "lens model", "fisheye")
+_LENS_NAMES = {"fisheye": distortion.FISHEYE_NAMES, "fov": ("omega",)}
 
 
 def are_cameras(names: set[str]) -> bool:
@@ -83,13 +99,13 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
     """
     entries, tables = list(entries_of(table)), dict[str, set[str]]()
     for name, _ in entries:
-        tables.setdefault(_owner(name), set()).add(bare(name.rpartition(".")[2]))
+        tables.setdefault(_owner(name), set()).add(plain(name.rpartition(".")[2]))
     cameras: dict[str, Keys] = {"": {}}
     unused = []
     for name, value in entries:
         head, _, last = name.rpartition(".")
-        owner, last = _owner(name), bare(last)
-        role = _ROLES.get(bare(name))
+        owner, last = _owner(name), plain(last)
+        role = _ROLES.get(plain(name))
         side = _STEREO.fullmatch(last)
         if side and np.size(value) > 1:
             owner, role = _SIDES[side[2]], "K" if side[1] else "lens"
@@ -125,10 +141,55 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
     return found, notes_on(unused)
 
 
-def bare(name: str) -> str:
-    return plain(name).replace(".", "")
-
-
 def _owner(name: str) -> str:
     """Return the name of the table that holds a key, without those for parts of a camera."""
     return _PART.sub("", name.rpartition(".")[0])
+
+
+def lens_in(keys: Keys, options: Options) -> distortion.FileLens:
+    """Return the lens. Raises LucidaError."""
+    models = [_model(*keys[role]) for role in _MODEL_ROLES if role in keys]
+    model = next(filter(None, models), "brown")
+    if "mirror" in keys and number_of(*keys["mirror"]):
+        name, value = keys["mirror"]
+        problem = f"{value!r} is of a mirror or Mei's lens, which is not supported"
+        raise LucidaError(name, problem, "give a pinhole or a fisheye")
+    known = _LENS_NAMES.get(model, NAMES)
+    if "lens" in keys:
+        name, value = keys["lens"]
+        counts = distortion.COUNTS if model == "brown" else (len(known),)
+        numbers = flat(name, value)
+        if numbers.size not in (0, *counts):
+            wanted = " or ".join(map(str, counts))
+            raise LucidaError(name, f"has {numbers.size} numbers", f"give {wanted}")
+        coefficients = dict(zip(known, numbers.tolist(), strict=False))
+    else:
+        coefficients = {name: float(flat(*keys[name])[0]) for name in known if name in keys}
+    return distortion.lens_of(model, coefficients, options)
+
+
+def _model(name: str, value: object) -> str:
+    """Return a model of Lens; "" for a pinhole, perhaps with OpenCV's coefficients."""
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)  # fisheye_model: 0.
+    if (found := _MODELS.get(plain(str(value)))) is None:
+        remedy = "give plumb_bob, rational_polynomial or equidistant, or undistort the images first"
+        raise LucidaError(name, f"{value!r} is a lens that is not supported", remedy)
+    return found
+
+
+def lens_table(lens: Lens | None) -> Table:
+    """Return the entries of a lens in a calibration file. Raises LucidaError."""
+    if lens is None:
+        return {"distortion_coefficients": np.zeros((5, 1))}
+    if lens.coefficient("r8"):
+        problem = f"{lens.coefficient('r8'):g} is a term that OpenCV has not"
+        raise LucidaError("lens.r8", problem, "leave it out, or give --ignore-distortion")
+    table: Table = {"distortion_model": "equidistant", "fisheye_model": 1}
+    names: tuple[str, ...] = distortion.FISHEYE_NAMES
+    if lens.model == "brown":
+        last = max((NAMES.index(name) for name in lens.coefficients), default=0)
+        names = NAMES[: next(n for n in distortion.COUNTS[1:] if n > last)]
+        table = {"distortion_model": "plumb_bob" if len(names) == 5 else "rational_polynomial"}
+    values = [[lens.coefficient(name)] for name in names]
+    return table | {"distortion_coefficients": np.array(values)}

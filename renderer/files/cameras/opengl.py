@@ -13,11 +13,10 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, Vector, listed
-from lucida.renderer.files.cameras.entries import flat, in_image, single
+from lucida.renderer.files.cameras.entries import flat, notes_on
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.literals import assigned, value_of
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
-from lucida.renderer.files.cameras.unused import notes_on
+from lucida.renderer.files.cameras.notations import assigned, value_of
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image, one_of
 from lucida.renderer.files.reading import check_bytes
 from lucida.renderer.system.errors import LucidaError
 
@@ -64,7 +63,7 @@ def read(given: Given, options: Options) -> CameraSet:
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
-    posed = single(cameras, "a pair of matrices")
+    posed = one_of(cameras)
     camera = in_image(posed, options, "OpenGL")[0] if posed.fit else posed.camera
     return {"": matrices(camera, AROUND, CHOSEN).encode()}
 

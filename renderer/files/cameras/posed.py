@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,8 @@ from numpy.typing import NDArray
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError
 
 NAMES_TOLD = 3  # cameras that an error's remedy lists
@@ -55,33 +58,40 @@ class CameraSet:
         return f"CameraSet({self.format}: {len(self.cameras)} cameras, {points:,} points)"
 
 
-def one_of(cameras: CameraSet, which: str = "") -> PosedCamera:
+def one_of(cameras: Sequence[PosedCamera], which: str = "") -> PosedCamera:
     """Return the camera with that name, or with that number (from 0).
 
-    Without either, return the camera of a file that holds only one. Raises LucidaError listing the
-    choices.
+    Without either, return the only camera. Raises LucidaError listing the choices.
     """
-    found = cameras.cameras
-    if not which:
-        if len(found) == 1:
-            return found[0]
-        raise LucidaError("", f"holds {len(found)} cameras", _remedy(found))
-    named = [camera for camera in found if camera.name == which]
+    named = [camera for camera in cameras if camera.name == which] if which else list(cameras)
     if not named:  # a photograph by its bare file name
-        named = [camera for camera in found if camera.name.rpartition("/")[2] == which]
+        named = [camera for camera in cameras if camera.name.rpartition("/")[2] == which]
+    if not named and which.isascii() and which.isdigit() and len(which) < 10:
+        named = list(cameras[int(which) :][:1])
     if len(named) == 1:
         return named[0]
+    problem = f"holds no camera {which!r}"
     if named:
-        problem = f"holds {len(named)} cameras named {which!r}"
-        raise LucidaError("", problem, "give the number of one, from 0")
-    if which.isascii() and which.isdigit() and len(which) < 10 and int(which) < len(found):
-        return found[int(which)]
-    raise LucidaError("", f"holds no camera {which!r}", _remedy(found))
+        problem = f"holds {len(named)} cameras" + f" named {which!r}" * bool(which)
+    names = [repr(camera.name) for camera in cameras if camera.name]
+    told = ", ".join([*names[:NAMES_TOLD], *["..."] * (len(names) > NAMES_TOLD)])
+    by_name = f" or one of {told}" if told else ""
+    raise LucidaError("", problem, f"give a number from 0 to {len(cameras) - 1}{by_name}")
 
 
-def _remedy(found: tuple[PosedCamera, ...]) -> str:
-    names = [camera.name for camera in found if camera.name]
-    told = ", ".join(map(repr, names[:NAMES_TOLD]))
-    more = ", ..." if len(names) > NAMES_TOLD else ""
-    by_name = f" or one of {told}{more}" if names else ""
-    return f"give a number from 0 to {len(found) - 1}{by_name}" if found else "give another file"
+def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size | None]:
+    """Return the camera fitted to its image's size, and that size.
+
+    The size is its own, or the requested one; None if neither is known.
+    """
+    size = posed.size or options.size
+    camera = posed.camera.fitted(size) if posed.fit and size is not None else posed.camera
+    return camera, size
+
+
+def in_image(posed: PosedCamera, options: Options, target: str) -> tuple[Camera, Size]:
+    """Like sized(), for a format that needs a size. Raises LucidaError if there is none."""
+    camera, size = sized(posed, options)
+    if size is None:
+        raise LucidaError("size", f"is not known, and {target} needs one", "give --size WxH")
+    return camera, check_size(size)

@@ -17,7 +17,8 @@ LENSES = MODELS
 
 
 def recognises(given: Given) -> bool:
-    return given.ending == ".toml" or (given.is_text and "[camera]" in given.text)
+    may_be = given.ending in ("", ".txt") and given.is_text
+    return given.ending == ".toml" or (may_be and "[camera]" in given.text)
 
 
 def read(given: Given, options: Options) -> CameraSet:
@@ -28,5 +29,5 @@ def read(given: Given, options: Options) -> CameraSet:
 
 
 def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
-    camera = one_of(CameraSet("view", tuple(cameras)))
+    camera = one_of(cameras)
     return {"": view_to_toml(View(camera.camera, camera.fit)).encode()}

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lucida.renderer.files.models.gltf_file import glb_bytes
 from lucida.renderer.images.png import png_of
 
 FLOAT, UNSIGNED_INT = 5126, 5125
@@ -27,7 +28,6 @@ class GlbTree:
         self._known: dict[tuple[str, str], int] = {}
         self._views: dict[bytes, int] = {}
         self._chunk = bytearray()
-        self._pictures: dict[int, int] = {}
 
     def add(self, kind: str, table: dict[str, Any]) -> int:
         """Return the number of an entry of one of the lists."""
@@ -52,25 +52,17 @@ class GlbTree:
 
     def texture(self, texels: NDArray[np.uint8], wrap_s: int, wrap_t: int) -> dict[str, int]:
         """Return a textureInfo of an image."""
-        if id(texels) not in self._pictures:
-            image = {"bufferView": self._view(png_of(texels)), "mimeType": "image/png"}
-            self._pictures[id(texels)] = self.add("images", image)
+        image = {"bufferView": self._view(png_of(texels)), "mimeType": "image/png"}
+        source = self.add("images", image)
         filters = {"magFilter": LINEAR, "minFilter": LINEAR}
         sampler = self.add("samplers", {**filters, "wrapS": wrap_s, "wrapT": wrap_t})
-        source = self._pictures[id(texels)]
         return {"index": self.add("textures", {"source": source, "sampler": sampler})}
 
     def glb(self, tree: dict[str, Any]) -> bytes:
         """Return the file. tree: what is not in the lists."""
-        binary = [(b"BIN\0", bytes(self._chunk))] if self._chunk else []
-        lists = self._lists | ({"buffers": [{"byteLength": len(self._chunk)}]} if binary else {})
-        text = json.dumps(tree | lists, ensure_ascii=False, separators=(",", ":")).encode()
-        chunks = [(b"JSON", text + b" " * (-len(text) % 4)), *binary]
-        length = 12 + sum(8 + len(data) for _, data in chunks)
-        parts = [b"glTF", (2).to_bytes(4, "little"), length.to_bytes(4, "little")]
-        for kind, data in chunks:
-            parts += [len(data).to_bytes(4, "little"), kind, data]
-        return b"".join(parts)
+        if self._chunk:
+            tree = tree | {"buffers": [{"byteLength": len(self._chunk)}]}
+        return glb_bytes(tree | self._lists, bytes(self._chunk))
 
     def _view(self, data: bytes) -> int:
         if data not in self._views:

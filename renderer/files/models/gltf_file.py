@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import binascii
 import codecs
+import json
 import re
 import urllib.parse
 from pathlib import Path
@@ -45,7 +46,7 @@ COMPONENT_TYPES: dict[int, np.dtype[Any]] = {
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
-class Table(msgspec.Struct, rename="camel"):
+class Table(msgspec.Struct, rename="camel", frozen=True):
     """A table of the tree. Fields that it does not name are ignored."""
 
     def entry(self, kind: str, number: int) -> Any:
@@ -55,10 +56,6 @@ class Table(msgspec.Struct, rename="camel"):
             problem = f"names entry {number}, counted from 0, of {len(entries)}"
             raise LucidaError(kind, problem, AGAIN)
         return entries[number]
-
-
-class Value(msgspec.Struct, rename="camel", frozen=True):
-    """A table that is a key, or a default."""
 
 
 class Asset(Table):
@@ -76,7 +73,7 @@ class BufferView(Table):
     byte_stride: Count | None = None
 
 
-class Accessor(Value, frozen=True):
+class Accessor(Table):
     component_type: int
     count: Count
     type: str
@@ -99,14 +96,14 @@ class GltfMesh(Table):
     name: str = ""
 
 
-class TextureTransform(Value, frozen=True):
+class TextureTransform(Table):
     offset: tuple[float, float] = (0.0, 0.0)
     scale: tuple[float, float] = (1.0, 1.0)
     rotation: float = 0.0
     tex_coord: Index | None = None
 
 
-class TextureInfoExtensions(Value, frozen=True):
+class TextureInfoExtensions(Table):
     transform: TextureTransform = msgspec.field(default=TextureTransform(), name=TRANSFORM)
 
 
@@ -137,7 +134,7 @@ class GltfSampler(Table):
     wrap_t: int = 10497
 
 
-class Pbr(Value, frozen=True):
+class Pbr(Table):
     base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     metallic_factor: float = 1.0
     roughness_factor: float = 1.0
@@ -177,7 +174,7 @@ class Lights(Table):
 
 
 class GltfExtensions(Table):
-    punctual: Lights = msgspec.field(default_factory=Lights, name=LIGHTS)
+    punctual: Lights = msgspec.field(default=Lights(), name=LIGHTS)
 
 
 class Node(Table):
@@ -190,7 +187,7 @@ class Node(Table):
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
     skin: Any = None
     camera: Index | None = None
-    extensions: NodeExtensions = msgspec.field(default_factory=NodeExtensions)
+    extensions: NodeExtensions = NodeExtensions()
 
 
 class GltfScene(Table):
@@ -203,7 +200,7 @@ class Gltf(Table):
     asset: Asset
     extensions_required: list[str] = []
     extensions_used: list[str] = []
-    extensions: GltfExtensions = msgspec.field(default_factory=GltfExtensions)
+    extensions: GltfExtensions = GltfExtensions()
     scene: Index = 0
     scenes: list[GltfScene] = []
     nodes: list[Node] = []
@@ -256,6 +253,14 @@ def _chunks(data: bytes) -> tuple[memoryview, bytes]:
         problem = f"is no whole glTF 2.0: version {version}, {length} bytes of which {len(data)}"
         raise damaged(f"{problem} are there")
     return chunks[b"JSON"], bytes(chunks.get(b"BIN\0", b""))
+
+
+def glb_bytes(tree: dict[str, Any], binary: bytes = b"") -> bytes:
+    """Return a .glb file of a tree and its binary chunk, padded to whole words."""
+    text = json.dumps(tree, ensure_ascii=False, separators=(",", ":")).encode()
+    chunks = [(b"JSON", text + b" " * (-len(text) % 4)), *[(b"BIN\0", binary)] * bool(binary)]
+    content = b"".join(len(data).to_bytes(4, "little") + kind + data for kind, data in chunks)
+    return b"glTF" + (2).to_bytes(4, "little") + (12 + len(content)).to_bytes(4, "little") + content
 
 
 class OpenGltf:

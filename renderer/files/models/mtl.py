@@ -12,8 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from lucida.renderer.files.models.numerals import is_number
-from lucida.renderer.files.models.texts import tidy
+from lucida.renderer.files.models.texts import is_number, tidy
 from lucida.renderer.files.reading import read_file
 from lucida.renderer.files.texture_images import ModelImages, read_image
 from lucida.renderer.scene.limits import MATERIAL_BYTES

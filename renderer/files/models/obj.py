@@ -10,13 +10,12 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.files.models import numerals
+from lucida.renderer.files.models import texts
 from lucida.renderer.files.models.mtl import MtlMaterial, read_mtl
-from lucida.renderer.files.models.numerals import Ints
 from lucida.renderer.files.models.obj_lines import Lines
 from lucida.renderer.files.models.parts import Part, linear_colors, used_vertices
 from lucida.renderer.files.models.polygons import triangulated
-from lucida.renderer.files.models.texts import read_text_bytes
+from lucida.renderer.files.models.texts import Ints
 from lucida.renderer.files.reading import damaged
 from lucida.renderer.files.texture_images import ModelImages, inner_path, shown
 from lucida.renderer.scene.limits import OBJECTS
@@ -34,7 +33,7 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
 
     images: for the textures of its materials.
     """
-    lines = Lines(read_text_bytes(path))
+    lines = Lines(texts.read_text_bytes(path))
     if not len(lines.numbers("f")):
         if not len(lines.numbers("v")):
             raise damaged("has no line that begins with v or f")
@@ -101,8 +100,8 @@ def _rows(lines: Lines, kind: str, images: ModelImages) -> Floats:
     that there are more, such as colours that only some vertices have.
     """
     text = lines.of(kind)
-    begins, counts = numerals.words(text)
-    values = numerals.floats(text, begins)
+    begins, counts = texts.words(text)
+    values = texts.floats(text, begins)
     width = int(counts.min(initial=9)) if len(counts) else 0
     if (counts > width).any():
         images.note(f"not read: numbers that only some lines of the kind {kind} have", "OBJ")
@@ -116,7 +115,7 @@ def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
     Indices count from 0; -1 means none, less an impossible one.
     """
     columns = []
-    found, counts = numerals.corners(lines.of("f"))
+    found, counts = texts.corners(lines.of("f"))
     for kind, column in zip(("v", "vt", "vn"), found, strict=True):
         if column is not None:
             # Negative ones count from the end of what was defined above their line.

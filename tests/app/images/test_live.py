@@ -304,17 +304,17 @@ def test_agreement_counts_the_pixels_that_differ(monkeypatch):
         assert verdict is not None
         return verdict
 
-    assert verdict_of(asked, agreeing()).text == "agree: all pixels"
+    assert verdict_of(asked, agreeing()).text == "raster and ray: all pixels agree"
     many = replace(asked, samples=16)
-    assert verdict_of(many, agreeing()).text == "agree: all pixels, at their centres"
-    assert verdict_of(asked, agreeing()).text == "agree: all pixels"
+    assert verdict_of(many, agreeing()).text == "raster and ray: all pixels agree, at their centres"
+    assert verdict_of(asked, agreeing()).text == "raster and ray: all pixels agree"
     assert agreement.verdict_on(replace(asked, size=(4, 3))) is None
     verdict = verdict_of(asked, agreeing(1))
-    assert verdict.unexplained + ("edge" in verdict.text) > 0
+    assert verdict.comparison.differing == 1
     # Shadows differ for a good reason: nothing is said of the rest either.
     verdict = verdict_of(replace(asked, shadows=True), agreeing(1))
     assert verdict.text == "not compared: only rays find shadows and mirrors"
-    assert verdict.unexplained == 0
+    assert verdict.agrees is None
     verdict_of(replace(asked, scene=TWO), agreeing())
     assert flattened == [SCENE, TWO]  # once each: it is costly
     agreement.close()

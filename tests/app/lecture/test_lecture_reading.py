@@ -118,7 +118,7 @@ def test_nested_arrays_of_any_depth(frames):
 
     depths = (1, *range(400, 500), 100_000)
     answers = [answer("a = " + "[" * depth + "]" * depth, frames) for depth in depths]
-    few = "a: is unknown; give one of title, author, pixels_from, notation, scenes, steps"
+    few = "a: is unknown; give one of title, author, pixels_from, scenes, steps"
     many = "is nested too deeply; write it with fewer brackets"
     assert sorted(answers) == answers and set(answers) == {few, many}
 

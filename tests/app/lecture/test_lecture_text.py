@@ -44,7 +44,7 @@ def test_blocks():
     [
         ("*a* b", (texts.Words("a", italic=True), texts.Words(" b"))),
         ("-5 is", (texts.Words("-5 is"),)),
-        ("2. ", (texts.Words("2."),)),
+        ("[a *b*](#c)", (texts.Words("a "), texts.Words("b", italic=True))),
         (r"a\$", (texts.Words("a$"),)),
         (r"a\*b", (texts.Words("a*b"),)),
         (r"$x$$y$ a\#", (texts.Math("x"), texts.Math("y"), texts.Words(" a#"))),
@@ -82,21 +82,15 @@ def test_mistakes_have_a_line(text, line):
 @pytest.mark.parametrize(
     ("text", "line", "told"),
     [
-        (
-            "so $$x$$ is",
-            0,
-            "$$ stands within a line; give it lines of its own, or write $ ... $",
-        ),
-        ("a\n\n- so **$$x$$**", 2, "$$ stands within a line"),
-        ("a\n$$x$$ is", 1, "text follows a displayed formula's $$; begin a new line after it"),
-        ("$$\nx\n$$ is", 2, "text follows a displayed formula's $$"),
-        ("$$$$ is", 0, "text follows a displayed formula's $$"),
-        ("$$", 0, "the formula does not end; close it by $$"),
-        ("a\n$}{$", 0, "the braces of '}{' do not match"),
+        ("a\n\n- so **$$x$$**", 2, "$$ is inside a line; give it lines of its own"),
+        ("a\n$$x$$ is", 1, "$$ is inside a line"),
+        ("$$\nx", 0, "a formula does not end; close it by $"),
+        ("a\n$}{$", 1, "the braces of '}{' do not match"),
         ("${a{b}$", 0, "the braces of '{a{b}' do not match"),
+        ("- a\n  ```\n  b\n  ```", 1, "contains a program; move it below"),
     ],
 )
-def test_a_displayed_formula_within_a_line_is_told_the_remedy(text, line, told):
+def test_a_mistake_has_a_remedy(text, line, told):
     with pytest.raises(texts.TextError) as error:
         texts.parse(text)
     assert told in str(error.value)

@@ -53,7 +53,7 @@ title = "a"
 text = '''
 Some $x$ and
 > a question $a
-> + b$
+> b$
 
 $$
 \\frac{1}{2}
@@ -64,7 +64,7 @@ $$
     lecture = lecture_from_toml(text, tmp_path, "x.toml")
     assert [(one.latex, one.line) for one in lecture.formulas] == [
         ("x", 5),
-        ("a + b", 6),
+        ("a\nb", 6),
         ("\\frac{1}{2}\n+ \\unheard", 10),
     ]
     told = first_mistake(lecture.formulas)

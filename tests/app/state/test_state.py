@@ -85,7 +85,15 @@ def test_undo_walks_a_list_of_states(acts):
         assert len(history.past) == here
 
 
+BALL = Sphere()
+
+
+def edited_scene(*more):
+    return replace(SCENE, objects=(*SCENE.objects, *more))
+
+
 LOOKS = (
+    {"outside": {"grid": False}, "stepper": {"steps": (3, 4)}},
     {"preferences": {"theme": "light"}},
     {"preferences": {"presentation": True, "font_scale": 2.0}},
     {"images": {"channel": "depth", "exposure_ev": 1.0, "magnification": 8.0}},
@@ -135,7 +143,7 @@ def test_a_mark_has_the_size_of_the_image_that_it_was_set_in():
     assert with_options(state, marked=(1, 2), shadows=True).options.marked_size == (64, 36)
     assert with_options(state, marked=(2, 2)).options.marked_size is None
     assert with_options(state, marked=None).options.marked_size is None
-    assert change(state, with_options(state, marked=(2, 2))) == "marked"
+    assert change(state, with_options(state, marked=(2, 2))) == "Mark (3, 3)"
 
 
 IN_LECTURE = replace(STATE, step=("a lecture", 2, 0))
@@ -145,26 +153,21 @@ TURNED = STATE.with_camera(replace(STATE.camera, u=(0, 1, 0), v=(1, 0, 0), w=(0,
 @pytest.mark.parametrize(
     ("before", "after", "words"),
     [
-        (STATE, IN_LECTURE, "lecture: step 3"),
-        (IN_LECTURE, replace(STATE, step=("a lecture", 2, 1)), "lecture: step 3.2"),
-        (IN_LECTURE, with_options(IN_LECTURE, marked=(2, 2)), "marked"),
-        (IN_LECTURE, with_options(STATE, marked=(2, 2)), "marked"),
-        (STATE, STATE.with_scene(replace(SCENE, name="cow")), "scene: cow"),
-        (STATE, STATE.with_scene(replace(SCENE)), "scene: without a name"),
-        (STATE, moved(3.0), "camera: eye"),
-        (STATE, TURNED, "camera: u, v, w"),
-        (STATE, TURNED.with_camera(replace(TURNED.camera, eye=(0, 0, 9))), "camera: view"),
-        (STATE, STATE.with_fit(False), "fit to the aspect ratio"),
-        (STATE, STATE.with_keep_orthonormal(False), "keep orthonormal"),
-        (STATE, STATE.with_view(View(SKEWED, fit=True)), "camera: view"),
-        (STATE, with_options(STATE, images={"pixel_size": 4}), "pixel size"),
-        (STATE, with_options(STATE, outside={"camera": SKEWED}), "camera"),
-        (
-            with_options(moved(3.0), shadows=True, outside={"ray": False, "grid": False}),
-            STATE,
-            "camera: eye, shadows, grid",
-        ),
-        (STATE, STATE, "nothing visible"),
+        (STATE, IN_LECTURE, "Lecture: step 3"),
+        (IN_LECTURE, replace(STATE, step=("a lecture", 2, 1)), "Lecture: step 3.2"),
+        (IN_LECTURE, with_options(STATE, marked=(2, 2)), "Mark (3, 3)"),
+        (STATE, STATE.with_scene(replace(SCENE, name="cow")), "Scene: cow"),
+        (STATE, STATE.with_scene(edited_scene(SceneObject(BALL, name="ball"))), "Add ball"),
+        (STATE, STATE.with_scene(replace(SCENE)), "Lights and background"),
+        (STATE, moved(3.0), "Eye x: 0 to 3"),
+        (STATE, TURNED, "Turn the camera"),
+        (STATE, TURNED.with_camera(replace(TURNED.camera, eye=(0, 0, 9))), "Move the camera"),
+        (STATE, STATE.with_camera(replace(STATE.camera, near=0.5)), "Near: off to 0.5"),
+        (STATE, STATE.with_fit(False), "Fit to the image's aspect ratio: off"),
+        (STATE, STATE.with_keep_orthonormal(False), "Keep orthonormal: off"),
+        (STATE, with_options(STATE, images={"pixel_size": 4}), "Resolution: pixels 4 x 4"),
+        (STATE, with_options(moved(3.0), shadows=True), "Eye x: 0 to 3, Shadows: on"),
+        (STATE, STATE, "Nothing visible"),
     ],
 )
 def test_a_step_of_undo_is_named_by_what_it_changes(before, after, words):

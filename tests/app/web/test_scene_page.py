@@ -24,7 +24,7 @@ from lucida.renderer.scene import (
     Texture,
 )
 from lucida.renderer.scene.model import View
-from tests.support.browser import Page, unexplained
+from tests.support.browser import Page, axe_script, unexplained
 from tests.support.page_cameras import LENSES, random_cameras, ray_error
 from tests.support.textured import noise
 
@@ -254,6 +254,18 @@ def test_a_camera_that_cannot_be_is_refused(tab):
         {"viewport": [1, 0, 0, 1]}, {"projection": "x"}, {"lens": {"model": "x"}}, {"nothing": 1},
     ):  # fmt: skip
         assert tab.evaluate(script, fields), fields
+
+
+def test_axe_finds_nothing(browser, scenes, tmp_path):
+    file = tmp_path / "scene.html"
+    file.write_text(scene_page(scenes["painted"], scenes["painted"].view), encoding="utf-8")
+    tab = browser.new_context(bypass_csp=True).new_page()
+    tab.goto(file.as_uri())
+    tab.evaluate("lucida.ready")
+    tab.evaluate(axe_script())
+    results = tab.evaluate("axe.run(document, {resultTypes: ['violations']})")
+    tab.context.close()
+    assert [(one["id"], one["nodes"][0]["html"]) for one in results["violations"]] == []
 
 
 HOSTILE = (

@@ -1,4 +1,5 @@
-"""Files whose names are not UTF-8, or are no names one would show: opened, remembered, told."""
+"""Files whose names are not UTF-8, not Latin, or not what one would show: opened, remembered,
+told."""
 
 import io
 import os
@@ -23,7 +24,10 @@ from lucida.renderer.files import load_scene, save_scene
 from lucida.renderer.system.errors import LucidaError, describe, one_line
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
-NAMES = (b"caf\xe9.obj", b"\xff\xfe\n\x1b[31m.obj", b"a  b.obj", "ü ⟂ 🎥.obj".encode())
+NAMES = (
+    *(b"caf\xe9.obj", b"\xff\xfe\n\x1b[31m.obj", b"a  b.obj"),
+    *(name.encode() for name in ("ü ⟂ 🎥.obj", "场景 一.obj", "مشهد أول.obj")),
+)
 
 pytestmark = pytest.mark.skipif(sys.platform in ("win32", "darwin"), reason="names are Unicode")
 

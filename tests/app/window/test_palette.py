@@ -61,7 +61,7 @@ TABLE = [
 ]
 TITLES = [" ".join(view.title.split()) for view in make_views()]
 VIEWS = [
-    Entry(f"Go to {title}", "View > Views", lambda: None, also=SYNONYMS.get(title, ""))
+    Entry(f"Go to {title}", "Instruments", lambda: None, also=SYNONYMS.get(title, ""))
     for title in TITLES
 ]
 PAGES = pages(None)  # which only running them needs

@@ -26,7 +26,7 @@ def look():
 run.params.callbacks.post_new_frame = look
 save_png(Path("out.png"), run.run())
 verdict = run.window.renderers.verdict(run.window.state)
-print(*told, verdict.unexplained, *run.window.renderers.size)
+print(*told, verdict.comparison.unexplained, *run.window.renderers.size)
 """
 
 

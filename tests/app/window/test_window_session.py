@@ -14,6 +14,8 @@ pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 WINDOW = """
 import os, signal, sys
 from pathlib import Path
+import numpy as np
+from numba import njit
 from stepped import session_window, stepped
 from lucida.app.ui import layout
 
@@ -21,6 +23,10 @@ folder, mode = Path(sys.argv[1]), sys.argv[2]
 run = session_window(folder)
 window, file = run.window, folder / "session-1.json"
 frames = iter(range(10**9))
+
+@njit
+def write(array, place):
+    array[place] = 1.0
 
 def saved():
     data = file.read_bytes() if file.exists() else b""
@@ -46,6 +52,10 @@ def step():
         window.open("spheres")
     elif frame > 20 and mode == "kill" and saved():
         os.kill(os.getpid(), signal.SIGKILL)
+    elif frame > 20 and mode == "crash" and saved():
+        window.renderers.live.make_tracer = lambda _: write(np.zeros(1), 1 << 45)
+        shadows = window.state.options.with_changes({"shadows": True})
+        window.change(window.state.with_options(shadows))
     elif frame > 20 and mode == "close" and window.state.scene.name == "spheres":
         run.params.app_shall_exit = True
 
@@ -58,12 +68,15 @@ def window(folder, mode):
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
-@pytest.mark.parametrize("mode", ["kill", "close"])
-def test_the_window_comes_back_as_it_was(tmp_path, mode):
-    """Layout, hidden views, theme and scene: after a crash, and after an ordinary end."""
+@pytest.mark.parametrize(
+    ("mode", "status"), [("kill", -signal.SIGKILL), ("crash", -signal.SIGSEGV), ("close", 0)]
+)
+def test_the_window_comes_back_as_it_was(tmp_path, mode, status):
+    """Layout, hidden views, theme and scene: where it was killed, where a kernel wrote into memory
+    that is not there, and after an ordinary end."""
     path = tmp_path / "session-1.json"
     done = window(tmp_path, mode)
-    assert done.returncode == (-signal.SIGKILL if mode == "kill" else 0), done.stderr
+    assert done.returncode == status, done.stderr
     left = from_bytes(path.read_bytes()).arrangement
     assert left.layout == "Compare" and "Raster" not in left.visible
     done = window(tmp_path, "go on")

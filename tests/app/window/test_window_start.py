@@ -1,6 +1,7 @@
 """The window where a driver does not take a shader: it opens, says so, and tries again."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -173,3 +174,46 @@ stepped(run, step)
     done = run(["-c", script], tmp_path)
     assert done.returncode == 0, done.stderr
     assert place.path.read_bytes() == kept
+
+
+IMPORTED = {
+    *("PIL", "_cython", "_moderngl", "cython_runtime", "glfw", "imgui_bundle", "lucida"),
+    *("mapbox_earcut", "moderngl", "msgspec", "multipledispatch", "numpy", "platformdirs", "pyrr"),
+    *("tomlkit", "trimesh", "typing_extensions"),
+}
+MOST_MODULES, MOST_FRAMES = 1200, 6  # 1117 and 5 on 2026-11-29
+
+
+def test_a_start_takes_few_imports_and_few_frames_to_its_first_picture(tmp_path):
+    """Numba and what reads other formats come later: in the tracer's thread, or never."""
+    script = """
+import sys
+from stepped import stepped
+from lucida.app.window.platform import start_platform
+from lucida.app.window.start import begin_scene
+from lucida.app.window.viewer import WindowRun
+
+start = begin_scene()
+run = WindowRun(start_platform(want_display=False), start.state, (900, 600), remember=False,
+                start=start)
+frames, modules = 0, []
+
+def step():
+    global frames
+    frames += 1
+    modules[:] = modules or sys.modules
+
+def look(target):
+    run.params.app_shall_exit = True
+
+run.on_drawn = look
+stepped(run, step)
+print(frames, *modules)
+"""
+    done = run(["-c", script], tmp_path)
+    assert done.returncode == 0, done.stderr
+    frames, *modules = done.stdout.split()
+    packages = {name.partition(".")[0].partition("_3_")[0] for name in modules}
+    others = packages - sys.stdlib_module_names - {"__main__", "_distutils_hack"}
+    assert others - IMPORTED - {"stepped", "option_changes"} == set()
+    assert len(modules) <= MOST_MODULES and int(frames) <= MOST_FRAMES

@@ -38,7 +38,7 @@ def test_a_wrong_value_in_the_middle_of_a_surface_is_unexplained(values):
         only_color = set(values) == {"color"}
         assert comparison.labels[12, 20] == (SHADING if only_color else UNEXPLAINED)
         assert comparison.shading == only_color
-        assert comparison.summary_short() == "disagree: 1 pixel"
+        assert comparison.verdict() == "1 pixel differs without an explanation"
 
 
 def test_differences_within_the_tolerances_agree():

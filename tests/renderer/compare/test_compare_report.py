@@ -21,7 +21,7 @@ def test_what_is_told_of_a_comparison():
     exact = replace(exact, time_s=0.0025)
     snapped = changed(exact, np.s_[:, 20], depth=2, id=0, primitive=0)
     comparison = compare_frames(flat, CAMERA, SIZE, snapped, exact)
-    assert comparison.summary_short() == "agree: all but 24 edge pixels"
+    assert comparison.verdict() == "all but 24 edge pixels agree"
     lines = comparison.summary().split("\n")
     assert lines[:3] == [
         "32x24: 744 of 768 pixels agree",
@@ -31,7 +31,9 @@ def test_what_is_told_of_a_comparison():
     assert lines[-1] == "raster 2.5 ms, ray 2.5 ms"
     one = changed(exact, (3, 20), depth=2, id=0, primitive=0)  # a single pixel has its cause too
     comparison = compare_frames(flat, CAMERA, SIZE, one, exact)
-    assert comparison.summary_short() == "agree: all but 1 edge pixel"
+    assert comparison.verdict() == "all but 1 edge pixel agree"
+    both = replace(comparison, explained=dict.fromkeys(CAUSES, 0) | {"edge": 1, "clip": 2})
+    assert both.verdict() == "all but 3 pixels agree (edge, clip)"
     comparison = compare_frames(flat, CAMERA, SIZE, changed(exact, (3, 4), color=0.9), exact)
     lines = comparison.summary().split("\n")
     assert lines[1:3] == ["explained:   0", "unexplained: 1 (1 in the colour alone)"]

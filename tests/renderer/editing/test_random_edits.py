@@ -18,7 +18,7 @@ from lucida.renderer.scene.model import View
 from lucida.renderer.scene.shapes import placement
 
 SIZE = (24, 16)
-SEQUENCES, EDITS_EACH = 200, 4
+SEQUENCES, EDITS_EACH = 60, 4
 VIEW = View(Camera.look_at((0.3, 1.2, 5.0), (0, 0, 0), fov_y_deg=40.0, aspect=1.5), fit=True)
 
 

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from lucida.renderer.files.models import numerals, polygons
+from lucida.renderer.files.models import polygons, texts
 from lucida.renderer.files.models.obj import read_obj
 from lucida.renderer.files.models.parts import Part
 from lucida.renderer.files.texture_images import ModelImages
@@ -142,10 +142,10 @@ def test_random_files_are_read_as_a_plain_reader_does(
 def test_numbers_are_what_float_makes_of_them(numbers: list[str]) -> None:
     for some in (numbers, [n for n in numbers if "e" not in n and "inf" not in n]):
         text = " {} \n".format("\t".join(some)).encode()
-        begins, counts = numerals.words(text)
+        begins, counts = texts.words(text)
         assert counts.tolist() == [len(some)]
         expected = np.array([float(number) for number in some])
-        assert numerals.floats(text, begins).tobytes() == expected.tobytes()
+        assert texts.floats(text, begins).tobytes() == expected.tobytes()
 
 
 @pytest.mark.parametrize("wrong", ["1-2", "1.2.3", ".", "-", "+-1", "1e", "x", "1,5", "0x1", "1_0"])
@@ -153,7 +153,7 @@ def test_what_is_no_number_is_refused(wrong: str) -> None:
     for others in ("", " .", " 7", " 1.5 .25", " 1e5"):
         text = f" {wrong}{others}\n".encode()
         with pytest.raises(ValueError, match=r"number|unmatched"):
-            numerals.floats(text, numerals.words(text)[0])
+            texts.floats(text, texts.words(text)[0])
 
 
 def test_an_obj_needs_no_trimesh(tmp_path: Path) -> None:

@@ -200,7 +200,7 @@ def test_a_scene_files_texture_table(tmp_path: Path) -> None:
 WRONG_TABLES = {
     "'gone.png'": r"materials\.m\.texture: 'gone.png' does not exist",
     "'../a.png'": r"materials\.m\.texture: '../a.png' is not in the folder",
-    "{ file = 'a.png', wrap = 'tile' }": r"texture\.wrap: 'tile' is unknown; give one of repeat",
+    "{ file = 'a.png', wrap = 'tile' }": r"texture\.wrap: 'tile' is unknown; give two of repeat",
     "'a.png'\nchecker = {}": r"materials\.m\.texture: is given, and so is a checker",
 }
 

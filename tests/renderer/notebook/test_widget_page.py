@@ -2,7 +2,6 @@
 
 import base64
 import json
-import shutil
 from pathlib import Path
 
 import pytest
@@ -10,12 +9,7 @@ import pytest
 from lucida.renderer.notebook import explore
 
 pytest.importorskip("anywidget")
-playwright = pytest.importorskip("playwright.sync_api")
-CHROMIUM = shutil.which("chromium")
-pytestmark = [
-    pytest.mark.skipif(CHROMIUM is None, reason="chromium is not installed"),
-    pytest.mark.filterwarnings("ignore"),  # Playwright's own
-]
+pytestmark = pytest.mark.filterwarnings("ignore")  # Playwright's own
 SIZE = (80, 60)
 FULL = "canvas[data-factor='1']"
 PAGE = """<!doctype html><style>%(css)s</style><div id="place"></div><script type="module">
@@ -32,12 +26,6 @@ const on = (name, heardBy) => (heard[name] = heardBy);
 const model = { get: () => %(size)s, send, on, off: () => {} };
 widget.render({ model, el: document.getElementById("place") });
 </script>"""
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with playwright.sync_playwright() as play:
-        yield play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
 
 
 @pytest.fixture

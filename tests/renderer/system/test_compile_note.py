@@ -29,14 +29,8 @@ def test_the_command_line_says_it_once_also_where_nobody_sees_a_bar(capsys):
 
 def test_the_status_line_s_words_while_nothing_is_known():
     assert told(None, None) == ""
-    assert is_good_news(None, None, effects=False) is None
-    assert is_good_news(None, ValueError("x"), effects=False) is False
-    comparison = SimpleNamespace(nothing_hit="")
-    verdict = SimpleNamespace(text="agree", unexplained=0, comparison=comparison)
-    assert told(verdict, ValueError("old")) == "agree"
-    assert is_good_news(verdict, None, effects=False) is True
-    assert is_good_news(verdict, None, effects=True) is None
-    verdict.unexplained = 1
-    assert is_good_news(verdict, None, effects=False) is False
-    comparison.nothing_hit = "everything is behind the eye"
-    assert is_good_news(verdict, None, effects=False) is None
+    assert is_good_news(None, None) is None
+    assert is_good_news(None, ValueError("x")) is False
+    verdict = SimpleNamespace(text="all pixels agree", agrees=True)
+    assert told(verdict, ValueError("old")) == "all pixels agree"
+    assert is_good_news(verdict, ValueError("old")) is True

@@ -128,7 +128,7 @@ def test_a_package_of_an_extra_that_is_missing(capsys, monkeypatch):
     works, told = json.loads(capsys.readouterr().out)
     assert not works
     assert "av" in told
-    assert "camera-lucida[film]" in remedy("films")
+    assert "install av distributed" in remedy("films")
 
 
 def test_files_that_hide_ours(monkeypatch, tmp_path):

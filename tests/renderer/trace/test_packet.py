@@ -52,7 +52,7 @@ SCENES = {"crowd": crowd, **{name: lambda name=name: load_scene(name) for name i
 def test_random_cameras_see_the_same(name, both):
     pair = both(SCENES[name]())
     random = np.random.default_rng(11)
-    for _ in range(25):
+    for _ in range(10):
         camera = random_camera(random, pair.flat.bounds)
         size = tuple(int(side) for side in random.integers(20, 150, 2))
         pair.check(camera, size)

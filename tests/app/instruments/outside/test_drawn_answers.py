@@ -27,6 +27,14 @@ def test_what_was_given_is_dashed_named_and_of_another_colour() -> None:
         assert {label.role == ROLE for label in labels} == {True, False}
 
 
+def test_arrows_lead_from_the_point_along_both_vectors() -> None:
+    given, correct, at = np.array([0, 1, 0.0]), np.array([1, 0, 0.0]), np.array([1, 2, 3.0])
+    items = answers.vector("w", "w", at, given, correct)
+    for arrow in (item for item in items if isinstance(item, Arrow)):
+        way = given if arrow.role == ROLE else correct
+        np.testing.assert_allclose((arrow.start, arrow.end), (at, at + way))
+
+
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 1e300])
 def test_what_cannot_be_drawn_leaves_the_correct_one(bad) -> None:
     wrong = np.full(3, bad)

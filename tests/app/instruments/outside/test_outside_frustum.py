@@ -113,6 +113,8 @@ class TestTheCameraThatLooks:
             row, column, _ = camera.project(points, (1000, 1000))
             extent = max(np.ptp(row), np.ptp(column))
             assert 850 < extent < 1000
+            above = (0, 0, -1) if abs(way[1]) == 1 else (0, 1, 0)  # -z is up where y is straight on
+            assert np.dot(camera.v, above) == pytest.approx(1)
 
     def test_nothing_to_see_is_no_error(self) -> None:
         camera = outside_camera(np.full((2, 3), np.nan), LOOKING, 1.0)

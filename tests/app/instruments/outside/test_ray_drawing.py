@@ -47,7 +47,10 @@ def test_the_t_under_the_mouse_is_on_the_ray_only() -> None:
 
 def test_of_all_meetings_the_least_t_above_0_wins() -> None:
     found = (-1.0, 0.8, 2.0)
-    assert {"t = -1", "t = 0.8", "t = 2"} <= _texts(meetings(CAMERA, SIZE, PIXEL, found, 9.0, 1.0))
+    items = meetings(CAMERA, SIZE, PIXEL, found, 9.0, 1.0)
+    assert {"t = -1", "t = 0.8", "t = 2"} <= _texts(items)
+    (beyond,) = (one for one in items if one.name == "beyond")
+    assert beyond.opacity == 1  # not yet paler
     items = meetings(CAMERA, SIZE, PIXEL, found, 9.0, 2.0)
     assert [one.name for one in items if isinstance(one, Dot) and one.role == "mark"] == ["t = 0.8"]
     (ray,) = (one for one in items if isinstance(one, Segments) and one.name == "ray")

@@ -43,13 +43,17 @@ def test_the_lines_lead_from_the_pixel_to_the_ray(lens):
     assert any(one.key == "distortion" for one in lines) is distorted
 
 
-@pytest.mark.parametrize("notation", ["book", "code"])
-def test_outside_of_the_lens_no_ray_is_written(notation):
+def test_outside_of_the_lens_no_ray_is_written():
     camera = replace(CAMERA, lens=Lens("brown", {"k1": -9.0}))
     reading = Probe(BALL).at((0, 0), camera, SIZE)
     assert reading.is_outside and reading.hit is None
     assert not any(meeting.crossings for meeting in reading.meetings)
     assert [one.key for one in all_lines(reading)][-1] == "outside"
-    shown = as_latex(reading, Indexing.LECTURE, notation)
+    shown = as_latex(reading, Indexing.LECTURE)
     assert "none" in shown and "nan" not in shown.lower()
     assert "no direction" in OUTSIDE
+
+
+def test_below_the_middle_the_negative_v_has_brackets():
+    lines = all_lines(Probe(BALL).at((40, 37), replace(CAMERA, lens=Lens("brown")), SIZE))
+    assert r"-\frac{(-" in line(lines, "distorted").latex_numbers

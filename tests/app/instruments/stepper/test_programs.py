@@ -87,11 +87,11 @@ def test_a_scene_without_objects_is_background() -> None:
     assert np.isnan(LoopRun(hits, OBJECT_ORDER, by_object=True).at(1).canvas).all()
 
 
-# The program on the screen draws the image, in each notation and language.
+# The program on the screen draws the image, in each language.
 
 
 def drawn_by(lines: tuple[str, ...], scene: Scene, camera: Camera) -> np.ndarray:
-    """Run a program's text; vectors are of the camera, in letters or in words."""
+    """Run a program's text; vectors are of the camera, in letters."""
     model, array = Model(scene), np.full((SIZE[1], SIZE[0], 3), np.nan)
     fields = {name: np.array(getattr(camera, name)) for name in ("eye", "u", "v", "w")}
     fields |= {"e": fields["eye"], "d": camera.distance, "distance": camera.distance}
@@ -114,16 +114,15 @@ def hit_of(model, camera, thing, origin, direction):
     return SimpleNamespace(t=hit.t, color=color_at(model, ray, hit))
 
 
-@pytest.mark.parametrize("notation", ["book", "code"])
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_the_whole_program_draws_the_image(projection, notation) -> None:
+def test_the_whole_program_draws_the_image(projection) -> None:
     scene = load_scene("canonical")
     own = scene.view.for_size(SIZE)
     simple = replace(Camera.canonical(), projection=projection)
     for camera in (simple, replace(own, projection=projection, viewport=(-0.4, 0.5, -0.3, 0.6))):
         texts = tuple(line.text for line in whole_program(camera))
         assert ("left" in texts[5]) == (camera is not simple) and len(texts) <= 15
-        lines = shown_lines(texts, notation, Indexing.LECTURE)
+        lines = shown_lines(texts, Indexing.LECTURE)
         told = image_order(Model(scene), camera, SIZE).array
         np.testing.assert_allclose(drawn_by(lines, scene, camera), told, atol=1e-9)
         run = LoopRun(hits_of(Model(scene), camera, SIZE), whole_program(camera))

@@ -91,7 +91,7 @@ def test_a_session():
     assert state.scene.objects[-1].name == "cone 2"
     options = state.options
     assert (options.marked, options.shadows, options.mirrors) == ((10, 20), True, True)
-    assert (options.one_based, options.notation) == (False, "code")
+    assert options.one_based is False
     assert options.images.resolution == (320, 180)
     assert (options.preferences.theme, options.preferences.font_scale) == ("light", 1.25)
     assert [(mark.number, mark.name) for mark in options.bookmarks] == [(1, "corner"), (4, "front")]
@@ -115,6 +115,7 @@ def test_each_removed_option_of_the_lecture_is_reported_with_its_line():
         "detective",
         "filming",
     }
+    assert [note for note in notes if "lecture.toml:5: notation: notation is ignored: " in note]
     for path in named & set(removed.REMOVED):
         (note,) = (note for note in notes if f" {path} is ignored: " in note)
         file, line, field, *_ = note.split(": ")[0].split(":") + note.split(": ")[1:]
@@ -130,6 +131,7 @@ def test_a_session_reports_removed_options_that_were_in_use_and_no_others():
     data = (FOLDER / "session.json").read_bytes()
     notes = from_bytes(data).notes
     assert any("costs.triangles is ignored: " in note for note in notes)
+    assert any("notation is ignored: " in note for note in notes)
     assert not any("costs.pixels" in note for note in notes)
 
 

@@ -17,7 +17,6 @@ from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.step_options import state_of
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.explaining.languages import julia
-from lucida.app.ui.explaining.symbols import TABLE
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.files import load_scene
 
@@ -57,27 +56,15 @@ def counted_from_one(ranges: tuple[range, range]) -> tuple[range, ...]:
     return tuple(range(one.start + 1, one.stop + 1) for one in ranges)
 
 
-def test_the_loops_have_symbols_of_one_notation():
-    for program in PROGRAMS:
-        lines = source_of(program).lines
-        book, code = (
-            set(re.findall(r"(?<![\w.])[A-Za-z]\w*", "\n".join(shown_lines(lines, notation))))
-            for notation in ("book", "code")
-        )
-        letters, words = ({getattr(one, name) for one in TABLE} for name in ("letter", "code"))
-        assert not book & (words - letters - set("uvw")) and not code & (letters - words)
-
-
-@pytest.mark.parametrize("notation", ["book", "code"])
 @pytest.mark.parametrize("indexing", list(Indexing))
 @pytest.mark.parametrize("language", ["python", "julia"])
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_the_loops_draw_the_same_however_they_are_shown(program, language, indexing, notation):
+def test_the_loops_draw_the_same_however_they_are_shown(program, language, indexing):
     lines = source_of(program).lines
     if language == "python":
-        text = "\n".join(shown_lines(lines, notation, indexing))
+        text = "\n".join(shown_lines(lines, indexing))
     else:
-        shown = "\n".join(shown_lines(lines, notation))
+        shown = "\n".join(shown_lines(lines))
         text = loops_read_back(julia.loops(shown, indexing).lines)
     from_one = counted_from_one if indexing is Indexing.LECTURE else tuple
     array = FromOne if language == "julia" else lambda made: made

@@ -55,8 +55,7 @@ def page_of(state):
     options, look = state.options.laboratory, look_of(PRESENTED_DARK)
     size = state.images.resolution or (64, 48)
     color = np.zeros((size[1], size[0], 3), np.float32)
-    taken_ev, notation = state.images.exposure_ev, state.options.notation
-    return Page((640, 480), look, options, color, taken_ev, options.point, notation)
+    return Page((640, 480), look, options, color, state.images.exposure_ev, options.point)
 
 
 def labels_of(figure):

@@ -46,7 +46,6 @@ def drive_a_number_that_is_not_legal_moves_nothing(d):
     box = d.ctx.window_info("//Camera").rect_full
     assert note.min.x >= box.max.x or note.max.x <= box.min.x, "it hides numbers"
     assert note.max.x <= SIZE[0]
-    d.picture()
     d.click("//Camera/Canonical")
     assert not panel.has_pending
     assert d.state.camera.eye == (0, 0, 0)
@@ -58,7 +57,7 @@ def drive_a_number_that_is_not_legal_moves_nothing(d):
 
 
 def drive_a_singular_basis_is_told_and_survived(d):
-    d.click("//Camera/keep orthonormal")
+    d.press(Key.o)
     assert not d.state.keep_orthonormal
     d.settle()
     legal, before = d.state, d.images()

@@ -70,7 +70,6 @@ def drive_a_pasted_matrix_asks_for_its_meaning(d):
     d.press(CTRL | Key.v)
     question = d.files.question
     assert len(question.answers) == 4
-    d.picture()
     opencv = "camera to world, y down"
     answer(d, next(words for words in question.answers if opencv in words))
     d.until(lambda: not d.window.travelling)
@@ -139,7 +138,6 @@ def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d):
     exports = d.window.shell.exports
     d.until(lambda: exports.listing is not None)
     d.frames(3)
-    d.picture()
     assert len(load_scene(path).objects) == len(d.state.scene.objects)
     listing = exports.listing
     assert listing.lines
@@ -167,7 +165,6 @@ def drive_a_long_export_is_cancelled(d):
         d.until(begun.is_set)
         d.until(lambda: d.window.shell.exports.time_s > 0.5)
         d.frames(3)
-        d.picture()
         d.press(CTRL | Key.e)  # one at a time
         assert not d.files.dialog.is_open
         assert "still being written" in said(d)
@@ -196,8 +193,6 @@ def drive_k_r_and_t_are_read_switched_and_copied(d):
         d.menu("Camera/Canonical camera")
         d.press(CTRL | Key.v)
         assert same_camera(d.renderers.camera(d.state), shown, size)
-    d.picture()
     d.press(Key.p)
     assert not d.ctx.item_exists(f"{PANEL}/Copy K, R, t")
-    d.picture()
     only_sections(d)

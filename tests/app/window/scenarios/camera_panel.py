@@ -28,7 +28,7 @@ def open_section(d, name):
 
 
 def close_sections(d):
-    for name in ("Look at", "K, R and t", "Lens"):
+    for name in ("Look at", "K, R and t", "Lens", "More"):
         d.ctx.item_close(f"//Camera/{name}")
     d.frames(2)
 
@@ -39,11 +39,18 @@ def right_click_menu(d, field, entry):
 
 
 def drive_all_of_the_main_part_is_seen_without_scrolling(d):
+    d.resize((1280, 720))
     close_sections(d)
-    assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
-    bottom = d.ctx.get_window_by_ref("//Camera").rect().max.y
-    for name in ("Lens", "K, R and t", "Look at"):
-        assert d.box(f"//Camera/{name}").max.y < bottom
+    panel = d.ctx.get_window_by_ref("//Camera")
+    for scale in (1.5, 1.0):
+        d.change(preferences={"font_scale": scale})
+        d.settle()
+        assert panel.scroll_max.y == 0
+        assert d.box("//Camera/Look at").max.y < panel.rect().max.y
+    open_section(d, "More")
+    d.settle()
+    assert panel.scroll_max.y == 0
+    close_sections(d)
 
 
 def drive_the_field_of_view_is_typed(d):
@@ -91,6 +98,8 @@ def drive_fractions_and_roots_are_typed(d):
 
 
 def drive_near_and_far_are_switched_on_and_cut(d):
+    close_sections(d)
+    open_section(d, "More")
     before = d.agreeing_images()
     assert (d.state.camera.near, d.state.camera.far) == (None, None)
     d.click("//Camera/near")
@@ -111,6 +120,7 @@ def drive_near_and_far_are_switched_on_and_cut(d):
     d.click("//Camera/near")
     d.click("//Camera/far")
     assert d.state.camera == d.start.camera
+    close_sections(d)
 
 
 def drive_a_number_is_reset(d):

@@ -8,6 +8,8 @@ from window_driver import Key
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.view import LECTURE
 
+SIZE = 1024, 728  # 1024x768 less a title bar: the smallest hall
+
 
 def overflow(d):
     """How far the step's text can be scrolled."""
@@ -29,39 +31,37 @@ def overflow(d):
 
 def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d):
     """1/50 of the window's height at least: at the end of all steps, and in all views alone."""
-    lecture = load_lecture(BUILTIN)
-    for size in ((1920, 1080), (1024, 728)):  # 1024x768 less a title bar
-        d.resize(size)
-        low = {}
-        scrolled = {}
+    lecture, low, scrolled = load_lecture(BUILTIN), {}, {}
+    d.resize(SIZE)
 
-        def look(name, least=size[1] / 50, low=low):
-            d.until(lambda: d.in_draw_lists(capital_heights))
-            heights = d.in_draw_lists(capital_heights)
-            low |= {name: small} if (small := below(heights, least)) else {}
+    def look(name):
+        d.until(lambda: d.in_draw_lists(capital_heights))
+        heights = d.in_draw_lists(capital_heights)
+        if small := below(heights, SIZE[1] / 50):
+            low[name] = small
 
-        d.window.lecture.give(lecture, BUILTIN)
-        d.settle()
-        assert d.state.preferences.presentation
-        for number, step in enumerate(lecture.steps):
-            d.window.lecture.go(d.window, number, lecture.count(number) - 1)
-            d.until(lambda: not d.window.lecture.is_entering)
-            d.frames(8)
-            look(step.title)
-            scrolled |= {step.title: px} if (px := overflow(d)) else {}
-        before = imgui.get_font_size()
-        d.press(Key.f9)  # which leaves presentation mode
-        assert not d.state.preferences.presentation
-        assert imgui.get_font_size() == before
-        d.window.lecture.leave(d.window)
-        d.settle()
-        d.change(preferences={"presentation": True})
-        for name in views_in_turn(d):
-            look(name)
-        d.window.change(d.start)
-        d.settle()
-        assert not low, (size, low)
-        assert not scrolled, (size, scrolled)
+    d.window.lecture.give(lecture, BUILTIN)
+    d.settle()
+    assert d.state.preferences.presentation
+    for number, step in enumerate(lecture.steps):
+        d.window.lecture.go(d.window, number, lecture.count(number) - 1)
+        d.until(lambda: not d.window.lecture.is_entering)
+        d.frames(8)
+        look(step.title)
+        scrolled |= {step.title: px} if (px := overflow(d)) else {}
+    before = imgui.get_font_size()
+    d.press(Key.f9)  # which leaves presentation mode
+    assert not d.state.preferences.presentation
+    assert imgui.get_font_size() == before
+    d.window.lecture.leave(d.window)
+    d.settle()
+    d.change(preferences={"presentation": True})
+    for name in views_in_turn(d):
+        look(name)
+    d.window.change(d.start)
+    d.settle()
+    assert not low, low
+    assert not scrolled, scrolled
 
 
 def below(heights, least):

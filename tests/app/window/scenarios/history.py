@@ -53,12 +53,12 @@ def drive_keys_and_menus(d):
 
 def drive_shadows_and_mirrors_are_the_ray_images_alone(d):
     raster, ray = d.agreeing_images()
-    d.menu("View/Shadows (ray image only)")
+    d.menu("Image/Shadows (ray image only)")
     d.settle()
     raster_after, shaded = d.images()
     assert (np.abs(raster_after - raster) <= 3).all()
     assert (ray - shaded).max() > 30
-    d.menu("View/Mirrors (ray image only)")
+    d.menu("Image/Mirrors (ray image only)")
     d.settle()
     assert np.abs(d.images()[1] - shaded).max() > 30
     verdict = d.renderers.verdict(d.state)

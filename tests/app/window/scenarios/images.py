@@ -36,8 +36,8 @@ def drive_windows_can_be_hidden(d):
     d.ctx.window_close(f"//###{RAY}")
     d.frames(3)
     d.until(lambda: d.renderers.size[0] > both[0])
-    d.menu("View/Views/###Ray")
-    d.menu("View/Layout/Reset the layout")
+    d.menu("Instruments/###Ray")
+    d.menu("###Layout/Reset the layout")
     d.frames(5)
     d.agreeing_images()
     assert abs(d.renderers.size[0] - both[0]) <= 2

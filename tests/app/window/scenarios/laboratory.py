@@ -15,7 +15,7 @@ def drive_every_page_is_drawn_and_moves(d):
     view = ALONE.open(d)
     for page, kind in PAGES.items():
         seen = []
-        for progress in sorted({0.0, kind.builds / 2, float(kind.builds)}):
+        for progress in sorted({0.0, float(kind.builds)}):
             options = {"page": page, "progress": progress}
             d.change(laboratory=options)
             d.settle()

@@ -257,7 +257,6 @@ def drive_a_lecture_is_read_again_when_it_is_saved(d):
         d.until(lambda: "is no command" in session.error)
         assert r"small.toml:4: steps[0].text: \foo is no command" in session.error
         assert d.state.scene.name == "canonical camera"
-        d.picture()
     path.write_text(SMALL)
     d.until(lambda: not session.error)
     d.settle()

@@ -13,7 +13,8 @@ from lucida.app.ui import layout
 from lucida.app.ui.theme import framebuffer_scale
 
 SPOILED = (1, 9, 21, 30)  # steps with images, without, and with a resolution
-JUMPS = (0, 33, 3, 29, 1, 22, 12, 21, 2, 19)
+JUMPS = (0, 33, 3, 30, 1, 22, 12, 21, 2)
+VISITED = sorted({*SPOILED, *JUMPS, *range(0, 36, 3)})
 STILL = 6  # frames in which a mark finds its image's size
 
 
@@ -85,11 +86,11 @@ def _spoil(d):
 
 def drive_a_step_does_not_depend_on_the_way(d):
     lecture = _begin(d)
-    count = len(lecture.session.lecture.steps)
-    facts, before = [], np.zeros(0)
-    for number, step in enumerate(lecture.session.lecture.steps):
+    facts, before = {}, np.zeros(0)
+    for number in VISITED:
+        step = lecture.session.lecture.steps[number]
         _go(d, number)
-        facts.append(_facts(d))
+        facts[number] = _facts(d)
         picture = d.picture()
         views = _views(d, picture)
         assert views.keys() == {LECTURE, *(name.capitalize() for name in step.views)}, step.title
@@ -99,7 +100,7 @@ def drive_a_step_does_not_depend_on_the_way(d):
         assert not number or np.abs(picture.astype(int) - before).max() > 30, step.title
         assert d.renderers.failure is None and not d.files.message, step.title
         before = picture
-    for number in (*reversed(range(0, count, 5)), *JUMPS):
+    for number in JUMPS:
         _go(d, number)
         assert _facts(d) == facts[number], number
     for number in SPOILED:

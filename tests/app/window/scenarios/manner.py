@@ -2,12 +2,14 @@
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
+from imgui_bundle.imgui.test_engine import TestAction
 from PIL import Image
 from window_driver import SIZE, Key
 
 from lucida.app.images.pair.boxes import ask_resolution
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.app.ui import layout, theme
+from lucida.app.window.hints import Hints
 from lucida.app.window.platform import begin_letters, lock_letters
 
 SIDE = layout.LAYOUTS[0].name
@@ -111,7 +113,7 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d):
     d.until(lambda: layout.current().name == layout.LAYOUTS[0].name)
     d.frames(3)
     assert stage.is_shown(RASTER)
-    d.menu("View/Layout/Reset the layout")
+    d.menu("###Layout/Reset the layout")
     d.settle()
 
 
@@ -217,7 +219,7 @@ def drive_pictures_show_what_the_window_shows(d):
 def drive_a_narrow_window_keeps_its_menus_and_its_status(d):
     d.change(preferences={"font_scale": 3.0})
     try:
-        for width, names in ((640, ("File", "Help")), (300, ("Menu",))):
+        for width, names in ((900, ("File", "Help")), (300, ("Menu",))):
             d.resize((width, 480))
             for name in names:
                 assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
@@ -230,7 +232,7 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d):
         d.resize(SIZE)
     d.window.change(d.start)
     d.settle()
-    d.menu("View/Shadows (ray image only)")
+    d.menu("Image/Shadows (ray image only)")
     assert d.options.shadows
 
 
@@ -247,6 +249,51 @@ def drive_a_framebuffer_out_of_scale_makes_no_letters(d):
     d.resize((1, 1))
     d.resize(SIZE)
     d.agreeing_images()
+
+
+def drive_documents_are_read_in_the_window(d):
+    documents = d.window.shell.documents
+    d.menu("Help/Getting started")
+    d.settle()
+    plain = d.picture()
+    documents.end()  # without its pictures
+    assert np.abs(d.picture().astype(int) - plain).max() == 0, "they are loaded again"
+    d.menu("Help/Documentation")
+    assert documents.shown == "window.md"
+    d.picture()
+    documents.follow("cameras.md#lenses")
+    d.picture()
+    assert documents.shown == "cameras.md"
+    d.press(Key.escape)
+    assert not documents.shown
+
+
+def drive_hints_are_shown_until_one_is_followed_and_never_again(d):
+    shell, folder = d.window.shell, d.folder / "settings"
+    d.settle()
+    plain = d.picture()
+    shell.hints = Hints(folder)
+    d.frames(3)
+    lower = d.picture()[SIZE[1] // 2 :].astype(int) - plain[SIZE[1] // 2 :]
+    assert (np.abs(lower).max(axis=2) > 20).sum() > 1000, "they are over the images"
+    d.press(Key.p)
+    d.settle()
+    assert not shell.hints.shown
+    assert not Hints(folder).shown
+    d.undo()
+    shell.hints = Hints(None)
+    d.settle()
+    assert np.abs(d.picture().astype(int) - plain).mean() < 1
+
+
+def drive_escape_closes_a_menu_whose_submenu_is_under_the_mouse(d):
+    d.ctx.menu_action(TestAction.hover, "//##MainMenuBar/View/Theme")
+    d.frames(20)
+    any_popup = int(imgui.PopupFlags_.any_popup)
+    assert imgui.is_popup_open("", any_popup)
+    d.press(Key.escape)
+    d.frames(20)
+    assert not imgui.is_popup_open("", any_popup)
 
 
 def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):

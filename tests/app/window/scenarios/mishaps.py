@@ -39,6 +39,21 @@ def drive_failures_of_the_tracer_are_told_and_tried_again(d):
     d.agreeing_images()
 
 
+def drive_a_lost_context_is_told_and_the_window_goes_on(d):
+    error = moderngl.Context.error
+    moderngl.Context.error = property(lambda _: "GL_UNKNOWN_ERROR")  # of GL_CONTEXT_LOST
+    try:
+        d.change(images={"resolution": (50, 40)})
+        d.until(lambda: d.renderers.raster_error is not None and is_told(d))
+        assert "the context is lost" in str(d.renderers.raster_error)
+    finally:
+        moderngl.Context.error = error
+    d.click("//##message/Try again")
+    d.until(lambda: d.renderers.raster_error is None)
+    d.undo()
+    d.agreeing_images()
+
+
 def drive_failures_of_the_rasterizer_are_told_and_survived(d):
     textures = d.renderers.textures
     rasterizer = textures.rasterizer.of(d.state.scene)

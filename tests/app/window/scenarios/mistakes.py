@@ -51,9 +51,7 @@ def drive_lines_are_made_wrong_and_right_again(d):
     assert _options(d).chosen == ("rows count upwards", "along +w")
     again = view.made
     assert len(again.mistakes) == 2
-    d.undo()
-    d.settle()
-    assert _options(d).chosen == ("rows count upwards",)
+    _choose(d, "direction", "correct")
     _choose(d, "y", "correct")
     assert _options(d).chosen == ()
     assert not view.made.mistakes

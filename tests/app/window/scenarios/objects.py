@@ -62,7 +62,6 @@ def drive_clicks_mark_pixels_unless_they_are_to_choose(d):
         assert now(d) == ("shiny sphere",), view
         assert window.state.marked is None
         d.press(Key.escape)
-    d.picture()
 
 
 def drive_outlines_end_where_the_image_does(d):
@@ -94,7 +93,6 @@ def drive_rows_are_chosen_as_everywhere(d):
     with held(d, Key.mod_shift):
         d.click(in_list(d, names[1]))
     assert now(d) == (names[3],)
-    d.picture()
     d.press(CTRL | Key.a)
     assert now(d) == tuple(names)
     d.press(Key.escape)
@@ -167,7 +165,6 @@ def drive_a_material_is_changed_for_one_object(d):
     assert window.state.scene.objects[row.ids[0]].material.checker is None
     before = {entry.material.shininess for entry in window.state.scene.objects}
     d.click(in_list(d, row.shown))
-    d.picture()
     d.click("//###Inspector/##name")
     d.ctx.key_chars_replace("crate")
     d.press(Key.tab)
@@ -236,7 +233,6 @@ def drive_the_column_grows_with_the_type(d):
     for scale in (1.0, 1.5, 1.0):
         d.change(preferences={"font_scale": scale})
         d.settle()
-        d.picture()
         wide.append(d.ctx.item_info("//###Objects/Add").rect_full.get_width())
     assert wide[1] > 1.25 * wide[0]
     assert abs(wide[2] - wide[0]) <= 1, wide

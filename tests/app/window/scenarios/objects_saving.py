@@ -58,7 +58,6 @@ def drive_a_file_that_another_has_changed_is_asked_about(d):
             d.press(CTRL | Key.s)
             d.until(lambda: window.files.question is not None)
             d.frames(3)
-            d.picture()
             assert "# theirs" in path.read_text()
             d.click(f"//##message/{answer}")
             if kept:
@@ -80,7 +79,6 @@ def drive_closing_asks_about_what_is_not_saved(d):
     d.press(CTRL | Key.q)
     assert window.files.question is not None
     assert not ended
-    d.picture()
     d.click("//##message/Cancel")
     assert window.files.question is None
     assert not ended
@@ -105,7 +103,6 @@ def drive_saving_as_begins_beside_the_scene_s_file(d):
     window.files.dialog.folder = d.folder / "elsewhere"
     d.press(CTRL | SHIFT | Key.s)
     assert window.files.dialog.folder == path.parent
-    d.picture()
     d.ctx.key_chars("copy")  # in the place of its own name
     d.press(Key.enter)
     d.until(lambda: (d.folder / "copy.toml").exists())

@@ -60,9 +60,9 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d):
     d.until(lambda: not window.motions.transition.under_way)
     d.frames(2)
     assert np.allclose(looks_from(d), (1, 0, 0))
-    assert d.steps == 1
+    assert not d.steps, "undo is for the other camera"
     assert window.state.view == inner
-    # Back to the view of all, which the state leaves to the view: at the end, without a step.
+    # Back to the view of all, which the state leaves to the view, at the end.
     press(d, "Fit all")
     clock.s += 0.999 * DURATION_S
     moving = window.motions.transition
@@ -74,10 +74,6 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d):
     d.frames(2)
     assert np.allclose(looks_from(d), start, atol=1e-9)
     assert np.allclose(near_end, start, atol=1e-3)
-    window.undo()
-    assert np.allclose(window.state.options.outside.camera.w, (1, 0, 0))
-    window.undo()
-    assert window.state == d.start
     d.settle()
 
 
@@ -97,7 +93,6 @@ def drive_an_object_is_aimed_at_smoothly(d):
     end = window.state.options.outside.camera
     way = np.subtract(end.eye, at.camera.eye)
     assert 0 < np.subtract(half.eye, at.camera.eye) @ way < way @ way
-    assert d.steps == 1
     d.settle()
 
 
@@ -107,12 +102,10 @@ def drive_the_mouse_moves_the_camera_that_looks(d):
     assert window.state.options.outside.camera is None
     x, y = empty_place(d)
     before = scope(d).camera
-    steps = d.steps
     d.drag((x, y), (x + 80, y + 30))
     turned = window.state.options.outside.camera
     assert turned.w != before.w
     assert abs(turned.u[1]) < 1e-9  # no roll
-    assert d.steps == steps + 1
     for button, key in ((1, 0), (2, 0), (0, Key.mod_shift)):
         was = window.state.options.outside.camera
         if key:
@@ -134,8 +127,6 @@ def drive_the_mouse_moves_the_camera_that_looks(d):
     assert window.state.camera == inner  # the other camera stays
     press(d, "Fit all")
     assert window.state.options.outside.camera is None
-    d.undo()
-    assert window.state.options.outside.camera == closer
 
 
 def drive_keys_switch_it(d):

@@ -73,7 +73,6 @@ def drive_without_a_file_it_helps_to_begin(d):
     d.stage.show_in(YOUR_CODE, layout.LOOPS)
     d.until(lambda: layout.current().name == layout.LOOPS)
     d.frames(8)
-    d.picture()
     d.click(f"{WINDOW}/Write a file to begin with...")
     dialog = d.files.dialog
     if dialog.is_open:  # the window's own: there is no system's here
@@ -81,14 +80,12 @@ def drive_without_a_file_it_helps_to_begin(d):
     view(d).write_starter(str(d.folder / "begun.py"))
     d.until(lambda: d.options.your_code.file == stored(str(d.folder / "begun.py")))
     until_told(d, "viewing_ray returns nothing yet")
-    d.picture()
 
 
 def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     opened(d, RIGHT)
     until_told(d, "Every ray is correct.", "viewing-ray: correct")
     d.settle()
-    d.picture()
     pictures = view(d).pictures
     assert pictures.size == (32, 24)
     assert (pictures.given == pictures.right).all()
@@ -107,7 +104,6 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     d.window.open("spheres")
     d.until(lambda: d.state.scene.name == "spheres")
     d.settle()
-    d.picture()
 
 
 def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
@@ -118,7 +114,6 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     assert any(item.name == "second edges" for item in outside.extensions.lines)
     pictures = view(d).pictures
     assert (pictures.given != pictures.right).any()
-    d.picture()
     info = d.box(f"{WINDOW}/right")
     d.click_at((info.min.x + 1.0, info.min.y + 1.0))
     assert d.state.marked is not None
@@ -128,10 +123,8 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     d.until(lambda: not any(item.name == "second edges" for item in outside.extensions.lines))
     write(d, RIGHT + "\ndef broken(:\n")
     until_told(d, "SyntaxError", "line 10")
-    d.picture()
     write(d, RIGHT.replace("x = camera.left", "x = camera.lft"))
     until_told(d, "rays.py, line 2", "lft")
-    d.picture()
     (d.folder / "rays.py").unlink()
     view(d).ask("run")
     until_told(d, "does not exist")
@@ -149,14 +142,12 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
         d.frames()
         frames += 1
     assert runs.busy
-    d.picture()
     processes = children()
     assert processes
     view(d).ask("stop")
     until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
     d.until(lambda: not runs.busy)
     d.until(lambda: not (children() & processes))
-    d.picture()
     version = view(d).report.question.content.version
     camera = d.state.camera
     d.window.change(d.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
@@ -195,11 +186,9 @@ def drive_images_are_pictures_and_other_functions_words(d):
     )
     until_told(d, "to_gray is wrong.")
     d.until(lambda: view(d).pictures is not None)
-    d.picture()
     d.change(your_code={"task": "memory-offset"})
     until_told(d, "memory_offset is wrong.", "printed", "asked 0")
     assert view(d).pictures is None
-    d.picture()
 
 
 def drive_a_course_s_tasks_are_asked(d):
@@ -210,7 +199,6 @@ def drive_a_course_s_tasks_are_asked(d):
     d.drop([str(course)])
     d.until(lambda: d.options.your_code.tasks == stored(str(course)))
     until_told(d, "Every ray is correct.", "counting: correct in all of")
-    d.picture()
     course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
     until_told(d, "768 of 768 rays are wrong.")
     course.write_text("lucida = 1\n")
@@ -246,7 +234,6 @@ def drive_the_verdict_is_read_from_afar(d):
             d.settle()
             sizes.clear()
             d.until(lambda: "768 of 768 rays are wrong." in sizes)
-            d.picture()
             verdict = sizes.pop("768 of 768 rays are wrong.")
             assert verdict >= imgui.get_main_viewport().size.y / 36, scale
             assert sizes and verdict > 1.2 * max(sizes.values()), scale
@@ -272,12 +259,10 @@ def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     d.until(lambda: YOUR_CODE in d.stage.rects)
     d.settle()
     assert not view(d).runs.busy and view(d).report is None and not ran.exists()
-    d.picture()
     d.click(f"{WINDOW}/Run it")
     until_told(d, "Every ray is correct.")
     assert ran.exists()
     d.settle()
-    d.picture()
     d.window.lecture.leave(d.window)
     d.frames(5)
     d.settle()

@@ -23,8 +23,8 @@ from format_cameras import (
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files.cameras import FORMATS, CameraSet, PosedCamera, read_cameras, written
+from lucida.renderer.files.cameras.formats import save_files
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.saving import save_files
 from lucida.renderer.system.errors import LucidaError
 
 CAMERAS = {
@@ -162,7 +162,7 @@ def test_a_camera_that_no_rotation_holds_is_refused(name: str) -> None:
 PLAIN = PosedCamera(Camera(), (64, 64))
 REFUSED = [
     *((name, [replace(PLAIN, size=None)], "size: is not known") for name in PERSPECTIVE_ONLY),
-    *((name, [PLAIN] * 2, "holds one camera, not 2") for name in ("opencv", "opengl")),
+    *((name, [PLAIN] * 2, "holds 2 cameras") for name in ("opencv", "opengl")),
     ("opengl", [PosedCamera(Camera(), fit=True)], "^size: is not known"),
     ("opencv", [replace(PLAIN, camera=Camera(projection="parallel"))], "^projection: 'parallel'"),
     ("colmap", [replace(PLAIN, name="a b")], r"^a b\.name: 'a b' is no single word; give each"),

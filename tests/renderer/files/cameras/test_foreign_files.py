@@ -87,3 +87,9 @@ def test_a_message_of_ros_is_read_as_it_is_printed(tmp_path: Path) -> None:
     assert found.size == (640, 480)
     made = found.camera.intrinsics((640, 480))[0]
     np.testing.assert_allclose(made, np.array([[655.5, 0, 319.5], [0, 655.5, 239.5], [0, 0, 1]]))
+
+
+def test_a_page_is_no_view_file_though_it_holds_one(tmp_path: Path) -> None:
+    (tmp_path / "a.html").write_text("<pre>\n[camera]\n</pre>")
+    with pytest.raises(LucidaError, match="is not a recognised camera format"):
+        read_cameras(tmp_path / "a.html")

@@ -11,7 +11,7 @@ import pytest
 from lucida.renderer.system import child, compile_note
 from lucida.renderer.trace.compile.cache_folder import cache_folder
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 LIMIT_S = 280  # the first rendering compiles the tracer
 # What Python, the packages and Lucida import early, late, and by chance; and the packages' names.
 NAMES = """\

@@ -12,7 +12,7 @@ from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.private_folder import private_folder
 from lucida.renderer.trace.compile import cache_folder, compiled
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 pytestmark = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="POSIX's owners and rights")
 
 
