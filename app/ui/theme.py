@@ -270,10 +270,12 @@ def line_px(at_100_percent: float = 1.0) -> float:
     return width * style.font_scale_main * style.font_scale_dpi
 
 
-def legible(color: ImVec4) -> ImVec4:
-    """Return the colour for text on a panel: yellow and orange are darkened on light panels."""
+def legible(color: ImVec4, ground: Rgb | None = None) -> ImVec4:
+    """Return the colour for text on a ground, or on a panel: yellow and orange are darkened on
+    light ones.
+    """
     least = ENHANCED if _used[0].theme == "contrast" else LEGIBLE
-    return _contrasting(color, _rgb(_used[0].palette.PANEL), least)
+    return _contrasting(color, ground or _rgb(_used[0].palette.PANEL), least)
 
 
 def seen_on(color: ImVec4, ground: Rgb) -> ImVec4:

@@ -147,7 +147,7 @@ def _ring(sphere: Sphere, camera: Camera) -> Floats:
 def _edges(vertices: NDArray[Any], faces: NDArray[Any]) -> MeshEdges:
     # Vertices at one place are one: meshes have several where their normals differ.
     mesh = trimesh.Trimesh(vertices.astype(float), faces, process=True)
-    alone = trimesh.grouping.group_rows(mesh.edges_sorted, require_count=1)  # type: ignore[no-untyped-call]
+    alone = trimesh.grouping.group_rows(mesh.edges_sorted, require_count=1)
     borders = mesh.edges_sorted[alone]
     third = mesh.faces[mesh.edges_face[alone]].sum(axis=1) - borders.sum(axis=1)
     ends = mesh.vertices[np.concatenate([mesh.face_adjacency_edges, borders])]
