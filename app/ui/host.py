@@ -10,7 +10,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import OptionPart
 from lucida.app.state.options import Options
 from lucida.app.state.options.shared import Pixel
-from lucida.app.ui.entry_box import EntryBox
+from lucida.app.ui.entry_box import Box
 from lucida.app.ui.recent import RecentFiles
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
@@ -93,7 +93,7 @@ class Host(Protocol):
     fonts: Fonts
     renderers: Renderers
     moves: bool
-    box: EntryBox | None
+    box: Box | None
 
     @property
     def has_tools(self) -> bool:
