@@ -17,8 +17,12 @@ def invitation(host: Host) -> Path | None:
     wrapped("A guided lecture: steps of text, each with its own scene, camera and views.")
     asked = None
     for title, path in BUILTINS.items():
-        if imgui.button(f'Begin "{title}"'):
+        imgui.push_id(title)
+        if imgui.button("Begin"):
             asked = path
+        imgui.same_line()
+        wrapped(title)
+        imgui.pop_id()
     if imgui.button("Open lecture..."):
         host.files.open_lecture_dialog()
     wrapped("A lecture's file can be dropped on the window, too.", theme.DIM)

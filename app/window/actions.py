@@ -99,15 +99,9 @@ FILE = (
     Action(PICTURES, "Save a picture of the window", lambda w: w.shell.picture(), "F12"),
     Action(
         PICTURES,
-        "Save a picture of the view in use",
+        "Save a picture of the current view",
         lambda w: w.shell.picture(view=True),
         "Shift+F12",
-    ),
-    Action(PICTURES, "Save a picture of the window as...", lambda w: w.shell.picture_as()),
-    Action(
-        PICTURES,
-        "Save a picture of the view in use as...",
-        lambda w: w.shell.picture_as(view=True),
     ),
 )
 

@@ -28,7 +28,7 @@ OWN = {
     "Save scene": "export",
     "Export...": "gltf glb blender save scene camera renderer",
     "Save a picture of the window": "screenshot capture image png",
-    "Save a picture of the view in use": "screenshot capture image png",
+    "Save a picture of the current view": "screenshot capture image png",
     "Quit": "exit close end",
     "Undo": "revert",
     "Redo": "repeat",

@@ -63,7 +63,7 @@ class SceneSaving:
         elif is_unsaved(state.scene):
             self._write(_SceneWritten(state.scene, path, then=then))
         else:
-            self._files.say(one_line(f"{path.name} holds all of the scene."))
+            self._files.say(one_line(f"No unsaved changes in {path.name}."))
 
     def save_with_view(self, state: AppState) -> None:
         """Save the scene, with the present camera as its own."""

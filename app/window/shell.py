@@ -109,23 +109,12 @@ class Shell:
         toggle_full_screen()
 
     def picture(self, view: bool = False) -> None:
-        """Save a picture of the window, or of the view in use, in the folder of pictures."""
+        """Save a picture of the window, or of the current view, in the folder of pictures."""
         try:
             what = self._view_in_use() if view else ""
             self.captures.ask(self._rect(what), self.captures.default_path(what.lower()))
         except LucidaError as error:
             self.toasts.add(describe(error), good=False)
-
-    def picture_as(self, view: bool = False) -> None:
-        """Save such a picture in a file that the user names."""
-        what = self._view_in_use() if view else ""
-        name = f"lucida {what.lower()}".strip().replace(" ", "-") + ".png"
-        self.files.ask_name(
-            "Save the picture",
-            name,
-            ("Pictures", ".png"),
-            lambda path: self._picture_to(what, path),
-        )
 
     def export_as(self, host: Host) -> None:
         """Export the scene and its camera, into a file that the user names."""
@@ -351,7 +340,3 @@ class Shell:
         scale = imgui.get_io().display_framebuffer_scale.x
         left, top, right, bottom = (edge * scale for edge in self.stage.rects[view])
         return left, top, right, bottom
-
-    def _picture_to(self, view: str, path: str) -> None:
-        self.captures.ask(self._rect(view) if view in self.stage.rects else None, Path(path))
-        hello_imgui.request_refresh()

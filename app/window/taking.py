@@ -8,9 +8,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from typing import Literal, Protocol
+from typing import Protocol
 
-from lucida.app.checking.your_code.view import YourCodeView
 from lucida.app.images.photograph.model import with_photograph
 from lucida.app.instruments.objects.editing import with_scene
 from lucida.app.instruments.poses.model import PoseSet
@@ -25,7 +24,6 @@ from lucida.app.window.opening import (
     OpenedPhotograph,
     OpenedPoses,
     OpenedScene,
-    OpenedTasks,
     OpenedView,
 )
 from lucida.renderer.editing.documents import are_versions, is_unsaved
@@ -63,8 +61,6 @@ def take_opened(window: Taker) -> None:
         match thing:
             case OpenedCode(path):
                 window.open_code(path)
-            case OpenedTasks(path):
-                window.view(YourCodeView).open_tasks(window, path)
             case OpenedPhotograph(path):
                 window.change(with_photograph(window.state, path, shown=True, follows=False))
                 window.files.say("The photograph is laid over the images: Image > Photograph.")
@@ -135,28 +131,13 @@ def _is_for_the_scene(state: AppState, opened: OpenedScene) -> bool:
 
 
 def _add_or_open(window: Taker, opened: OpenedScene, open_: Callable[[], None]) -> None:
-    """Add such a model, or open it. Ask which the first time; the answer is an option, which the
-    menu Scene changes.
-    """
-    model, objects = opened.scene, window.options.objects
-    wanted = "add" if opened.use == "add" else objects.dropped
-
-    def answered(answer: Literal["add", "open"], do: Callable[[], None]) -> None:
-        window.amend(window.state.with_options(replace(objects, dropped=answer)))
-        do()
-
-    if wanted == "open":
-        open_()
-    elif wanted == "add":
+    """Add such a model, or ask whether to open it instead."""
+    model = opened.scene
+    if opened.use == "add":
         _add(window, model)
-    else:
-        window.files.ask(
-            one_line(f"{model.name}: add the model to the scene? Later ones go the same way."),
-            {
-                ADD: lambda: answered("add", lambda: _add(window, model)),
-                OPEN: lambda: answered("open", open_),
-            },
-        )
+        return
+    answers = {ADD: lambda: _add(window, model), OPEN: open_}
+    window.files.ask(one_line(f"{model.name}: add the model to the scene?"), answers)
 
 
 def _add(window: Taker, model: Scene) -> None:

@@ -47,7 +47,7 @@ class CameraView(Instrument):
         "190 degrees": "lens fisheye circular wide angle",
         "360 degrees": "lens panorama equirectangular spherical",
         "No lens": "pinhole undistort",
-        "Jump without transition": "animation reduced motion transition",
+        "Animate camera changes": "animation reduced motion transition",
         "Camera": "fov field of view eye basis viewport distance near far clip dolly zoom",
     }
 

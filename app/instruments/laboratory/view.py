@@ -151,7 +151,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
         changed = replace(changed, progress=progress)
     if changed.page in ("kinds", "exposure"):
         limits = range_of(LaboratoryOptions, "after_ev")
-        after_ev = _slider("exposure after storage", changed.after_ev, limits, "%+.1f EV")
+        after_ev = _slider("exposure", changed.after_ev, limits, "%+.1f EV")
         changed = replace(changed, after_ev=after_ev)
     if changed != options:
         host.apply(host.state.with_options(changed))

@@ -49,9 +49,12 @@ def _adding(kind: str) -> Action:
     )
 
 
-SCENE = (
+ADDING = (
     *(_adding(kind) for kind in (*objects.SHAPES, *objects.LIGHTS)),
     Action("Scene/Add", "Add model...", lambda w: w.files.add_model_dialog(), separated=True),
+)
+SCENE = (
+    *ADDING,
     Action(
         MENU,
         "Duplicate",
@@ -80,7 +83,6 @@ SCENE = (
 
 CHOOSING = (
     _toggle(MENU, "Select on click", "selects", True, False, "V"),
-    _toggle(MENU, "Add dropped models to the scene", "dropped", "add", "open"),
     _toggle(HANDLES, "Objects: move", "handle", "move", "none", "Shift+G"),
     _toggle(HANDLES, "Objects: turn", "handle", "turn", "none", "Shift+T"),
     _toggle(HANDLES, "Objects: scale", "handle", "scale", "none", "Shift+L"),

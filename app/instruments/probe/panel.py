@@ -102,7 +102,7 @@ def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppSta
         if imgui.is_item_clicked(imgui.MouseButton_.right):
             kept = tuple(one for one in state.options.probe.pins if one != pin.pixel)
             state = state.with_options(replace(state.options.probe, pins=kept))
-        imgui.set_item_tooltip("click: go to this pixel; right-click: let it go")
+        imgui.set_item_tooltip("click: go to this pixel; right-click: remove it")
     return state
 
 

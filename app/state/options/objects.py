@@ -19,10 +19,8 @@ class ObjectsOptions(OptionPart):
     chosen: selected objects and lights by their keys (renderer/editing/), the last one last.
     selects: a click in a view selects the object under it, instead of marking a pixel.
     handle: the selection's handles in the views.
-    dropped: what to do with a model that is dropped on the window.
     """
 
     chosen: Annotated[tuple[Key, ...], AtMost(MOST_CHOSEN)] = ()
     selects: bool = False
     handle: Handle = "move"
-    dropped: Literal["ask", "add", "open"] = "ask"

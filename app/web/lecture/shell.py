@@ -43,7 +43,7 @@ autocomplete="name"></p>
 {_CLOSE}<dialog id="help" aria-labelledby="help-title">
 <h2 id="help-title">Keys</h2>
 <dl class="keys">{_ROWS}</dl>
-<p><label><input type="checkbox" id="letters" checked> Letters are keys</label></p>
+<p><label><input type="checkbox" id="letters" checked> Single-letter shortcuts</label></p>
 {_CLOSE}<p id="told" class="unseen" role="status"></p>
 """
 

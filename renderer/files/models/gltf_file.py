@@ -46,7 +46,7 @@ COMPONENT_TYPES: dict[int, np.dtype[Any]] = {
 COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
-class Table(msgspec.Struct, rename="camel", frozen=True):
+class Table(msgspec.Struct, rename="camel"):
     """A table of the tree. Fields that it does not name are ignored."""
 
     def entry(self, kind: str, number: int) -> Any:
@@ -56,6 +56,10 @@ class Table(msgspec.Struct, rename="camel", frozen=True):
             problem = f"names entry {number}, counted from 0, of {len(entries)}"
             raise LucidaError(kind, problem, AGAIN)
         return entries[number]
+
+
+class Value(msgspec.Struct, rename="camel", frozen=True):
+    """A table that is a key, or a default."""
 
 
 class Asset(Table):
@@ -73,7 +77,7 @@ class BufferView(Table):
     byte_stride: Count | None = None
 
 
-class Accessor(Table):
+class Accessor(Value, frozen=True):
     component_type: int
     count: Count
     type: str
@@ -96,14 +100,14 @@ class GltfMesh(Table):
     name: str = ""
 
 
-class TextureTransform(Table):
+class TextureTransform(Value, frozen=True):
     offset: tuple[float, float] = (0.0, 0.0)
     scale: tuple[float, float] = (1.0, 1.0)
     rotation: float = 0.0
     tex_coord: Index | None = None
 
 
-class TextureInfoExtensions(Table):
+class TextureInfoExtensions(Value, frozen=True):
     transform: TextureTransform = msgspec.field(default=TextureTransform(), name=TRANSFORM)
 
 
@@ -134,7 +138,7 @@ class GltfSampler(Table):
     wrap_t: int = 10497
 
 
-class Pbr(Table):
+class Pbr(Value, frozen=True):
     base_color_factor: tuple[float, float, float, float] = (1.0, 1.0, 1.0, 1.0)
     metallic_factor: float = 1.0
     roughness_factor: float = 1.0
@@ -174,7 +178,7 @@ class Lights(Table):
 
 
 class GltfExtensions(Table):
-    punctual: Lights = msgspec.field(default=Lights(), name=LIGHTS)
+    punctual: Lights = msgspec.field(default_factory=Lights, name=LIGHTS)
 
 
 class Node(Table):
@@ -187,7 +191,7 @@ class Node(Table):
     scale: tuple[float, float, float] = (1.0, 1.0, 1.0)
     skin: Any = None
     camera: Index | None = None
-    extensions: NodeExtensions = NodeExtensions()
+    extensions: NodeExtensions = msgspec.field(default_factory=NodeExtensions)
 
 
 class GltfScene(Table):
@@ -200,7 +204,7 @@ class Gltf(Table):
     asset: Asset
     extensions_required: list[str] = []
     extensions_used: list[str] = []
-    extensions: GltfExtensions = GltfExtensions()
+    extensions: GltfExtensions = msgspec.field(default_factory=GltfExtensions)
     scene: Index = 0
     scenes: list[GltfScene] = []
     nodes: list[Node] = []

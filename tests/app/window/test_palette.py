@@ -76,7 +76,7 @@ PAGES = pages(None)  # which only running them needs
         ("diagram", "Export figure as SVG..."),
         ("screenshot", "Save a picture of the window"),
         ("zoom", "Magnify"),
-        ("gamma", "Linear light without sRGB's curve"),
+        ("gamma", "Linear light (no sRGB curve)"),
         ("count from", "Pixels from 1 (lecture)"),
         ("subpixel", "Image laboratory: Displays"),
         ("lights", "Add point light"),
