@@ -211,8 +211,8 @@ def test_pixels_show_the_same_parts_over_the_ground(ground: Any) -> None:
     ]
     pixels = painted(drawn(items, STRAIGHT, ground=ground))
     assert pixels.shape == (*SIZE[::-1], 4)
-    corner = [255, 255, 255, 255] if ground else 0
-    assert (pixels[[0, 0, -1, -1], [0, -1, 0, -1]] == corner).all()
+    corners = pixels[[0, 0, -1, -1], [0, -1, 0, -1]]
+    assert (corners == 255).all() if ground else (corners[:, 3] == 0).all()
     opaque = pixels[..., 3] if ground is None else 255 - pixels[..., :3].min(axis=2)
     rows, columns = np.nonzero(opaque > 127)
     assert abs(np.median(rows) - SIZE[1] / 2) < 30
@@ -220,4 +220,4 @@ def test_pixels_show_the_same_parts_over_the_ground(ground: Any) -> None:
     start, end = project(items, OutsideScreen(STRAIGHT, SIZE))[0].points[0, :, 0]  # type: ignore[union-attr]
     assert abs(across.min() - start) < 4
     assert abs(across.max() - end) < 4
-    assert (rows < SIZE[1] / 2 - 20).any()  # the letters
+    assert (rows < SIZE[1] / 2 - 10).any()  # the letters
