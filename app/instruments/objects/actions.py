@@ -49,9 +49,12 @@ def _adding(kind: str) -> Action:
     )
 
 
-SCENE = (
+ADDING = (
     *(_adding(kind) for kind in (*objects.SHAPES, *objects.LIGHTS)),
     Action("Scene/Add", "Add model...", lambda w: w.files.add_model_dialog(), separated=True),
+)
+SCENE = (
+    *ADDING,
     Action(
         MENU,
         "Duplicate",

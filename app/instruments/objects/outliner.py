@@ -5,19 +5,19 @@ Selecting is no undo step. Only visible rows are drawn.
 
 from __future__ import annotations
 
-from functools import lru_cache, partial
+from functools import lru_cache
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.instruments.objects import editing
-from lucida.app.instruments.objects.actions import edit
+from lucida.app.instruments.objects.actions import ADDING, edit
 from lucida.app.instruments.objects.choosing import choose, choose_also, chosen, rows_of
 from lucida.app.ui import theme
+from lucida.app.ui.action import draw_entry
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import fitting_letters
 from lucida.app.ui.rows import tip
-from lucida.renderer.editing import objects
 from lucida.renderer.editing.changing import Item
 from lucida.renderer.editing.outline import OutlineRow
 from lucida.renderer.scene.model import Scene
@@ -85,13 +85,8 @@ def _add_menu(host: Host) -> None:
     below = imgui.get_item_rect_min().x, imgui.get_item_rect_max().y
     imgui.set_next_window_pos(below, imgui.Cond_.appearing)
     if imgui.begin_popup("add"):
-        for kind in (*objects.SHAPES, *objects.LIGHTS):
-            label = f"{kind} light" if kind in objects.LIGHTS else kind
-            if imgui.menu_item(label.capitalize(), "", False)[0]:
-                edit(host, partial(editing.added, kind=kind, focus=host.focus))
-        imgui.separator()
-        if imgui.menu_item("Model...", "", False)[0]:
-            host.files.add_model_dialog()
+        for action in ADDING:
+            draw_entry(action, host)
         imgui.end_popup()
 
 

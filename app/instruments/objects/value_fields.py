@@ -102,11 +102,6 @@ def color_line(label: str, value: Color, tooltip: str, fonts: theme.Fonts) -> li
     imgui.pop_style_var()
     imgui.pop_font()
     rows.tip(f"{tooltip}\nlinear light: {linear}")
-    imgui.push_id(f"##{label}")
-    if imgui.begin_popup("picker"):  # ImGui's own
-        imgui.text_disabled(f"linear light: {linear}")
-        imgui.end_popup()
-    imgui.pop_id()
     if not changed:
         return None
     new = [float(f"{part:.{DIGITS}g}") for part in from_srgb(np.array(picked[:3])).tolist()]

@@ -1,25 +1,10 @@
 """The camera panel beyond its plain numbers: what is coupled, presets, lenses, passages."""
 
-import numpy as np
-import pytest
-from held_clock import Clock
 from imgui_bundle import imgui
 from window_driver import Key, changed
 
 from lucida.app.cameras.lens_choices import LENS_PRESETS
-from lucida.app.cameras.travel import DURATION_S
-from lucida.app.ui import typed
 from lucida.renderer.camera.lenses import Lens
-
-SIZE = (400, 300)
-
-
-def size_at_focus(d, camera):
-    """Return the size in pixels at which a length at the focus is seen."""
-    focus = np.asarray(d.window.focus.center)
-    points = np.array([focus, focus + np.asarray(camera.u)])
-    seen = camera.project(points, SIZE)
-    return float(np.hypot(np.diff(seen.row), np.diff(seen.column))[0])
 
 
 def open_section(d, name):
@@ -66,35 +51,6 @@ def drive_the_field_of_view_is_typed(d):
     assert "between 0 and 180" in str(d.window.views["Camera"].draft.error)
     assert d.state.camera == camera
     d.click("//###pending camera/Back to the camera shown")
-
-
-def drive_fractions_and_roots_are_typed(d):
-    d.type("eye.x", "1/3")
-    assert d.state.camera.eye[0] == 1 / 3
-    d.type("eye.y", "2*sqrt(2)/2")
-    assert d.state.camera.eye[1] == pytest.approx(2**0.5, abs=1e-15)
-    before = d.state
-    d.ctx.item_double_click(d.field("eye.x"))  # all of its digits are there
-    d.frames(2)
-    d.press(Key.enter)
-    assert d.state == before
-    d.ctx.item_double_click(d.field("eye.x"))
-    d.ctx.key_chars_replace("abc")
-    d.frames(2)
-    assert "'abc' is not a number" in next(iter(typed.open_fields.values())).wrong
-    assert d.state == before
-    d.press(Key.escape)
-    assert d.state == before and not typed.open_fields
-    d.type("eye.x", "0.5")  # and it can be typed anew
-    assert d.state.camera.eye[0] == 0.5
-    d.ctx.item_double_click(d.field("eye.x"))
-    d.ctx.key_chars_replace("1/4")
-    d.frames(2)
-    d.press(Key.tab)  # goes on to the next field, as ImGui's own do
-    d.frames(3)
-    d.ctx.key_chars_replace_enter("sqrt(4)")
-    d.frames(2)
-    assert d.state.camera.eye[:2] == (0.25, 2.0)
 
 
 def drive_near_and_far_are_switched_on_and_cut(d):
@@ -181,52 +137,6 @@ def drive_outside_of_a_lens_is_said_and_straight_lines_bend(d):
     d.agreeing_images()
 
 
-def drive_look_at_is_typed(d):
-    close_sections(d)
-    open_section(d, "Look at")
-    for axis, value in zip("xyz", ("0", "6", "9"), strict=True):
-        d.type(f"look.eye.{axis}", value)
-    d.click("//Camera/Look there")
-    camera = d.state.camera
-    assert camera.eye == (0, 6, 9)
-    toward = np.subtract(d.window.focus.center, camera.eye)
-    assert np.allclose(np.cross(toward, camera.w), 0)
-    assert d.steps == 1
-    for axis, value in zip("xyz", toward, strict=True):
-        d.type(f"look.up.{axis}", f"{value:.6f}")
-    d.click("//Camera/Look there")
-    assert d.state.camera == camera
-    assert "along the view direction" in str(d.window.views["Camera"].entered.look.error)
-    d.click("//###pending look/Back to the camera's own")
-    assert d.window.views["Camera"].entered.look.error is None
-    close_sections(d)
-
-
-def drive_a_passage_is_smooth_and_one_step(d):
-    clock = Clock(d)
-    d.press(Key.p)
-    window = d.window
-    assert window.motions.transition.under_way
-    distances = []
-    for part in (0.2, 0.4, 0.6):
-        clock.s = 10.0 + part * DURATION_S
-        d.frames(2)
-        camera = window.state.camera
-        assert not camera.is_parallel
-        distances.append(camera.distance)
-        same = size_at_focus(d, camera) / size_at_focus(d, d.start.camera)
-        assert abs(same - 1) < 1e-4  # the size at the focus stays
-    assert distances == sorted(distances)
-    clock.s += DURATION_S
-    d.frames(2)
-    assert window.state.camera.is_parallel
-    assert not window.motions.transition.under_way
-    assert d.steps == 1
-    d.agreeing_images()
-    window.undo()
-    assert window.state == d.start
-
-
 def drive_sections_stay_as_the_user_leaves_them(d):
     view, stage = d.window.views["Camera"], d.stage
     close_sections(d)
@@ -238,6 +148,6 @@ def drive_sections_stay_as_the_user_leaves_them(d):
     assert view.sections == ()
     view.open_sections(left.sections["Camera"])  # as a session does
     d.frames(10)
-    assert d.ctx.item_info("//Camera/##look.eye.x").id_ != 0
+    assert d.ctx.item_info("//Camera/##look.up.x").id_ != 0
     assert view.sections == ("Look at",)
     close_sections(d)

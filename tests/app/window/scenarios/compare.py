@@ -4,7 +4,6 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
-from imgui_bundle import imgui
 from window_driver import SIZE, Key
 
 from lucida.app.images.compare import comparing
@@ -263,16 +262,3 @@ def drive_no_difference_is_shown_while_the_ray_image_is_coarse(d):
         live.poll = take
     trace_again(d)
     assert waiting(both, d.state) == ""
-
-
-def drive_it_fits_small_and_large_windows(d):
-    view = d.window.views[NAME]
-    for size in ((1600, 1000), (1000, 500), (640, 400), (300, 100), SIZE):
-        d.resize(size)
-        show(d, mode="wipe" if size[0] == 640 else "absolute")
-        window = imgui.internal.find_window_by_name(view.label)
-        if size[0] >= 1000:
-            low, high = view.screen.pane
-            assert high.y - low.y > 0.25 * window.size.y, "the image keeps its share"
-            cut = window.scroll_max.x, window.scroll_max.y
-            assert cut == (0, 0), f"{size}: {cut} is cut off"

@@ -2,33 +2,32 @@
 
 import numpy as np
 from imgui_bundle import imgui
-from shown_pixels import ALT, choose, counting, pixels, placement, without_overlays
+from shown_pixels import ALT, choose, counting, pixels, without_overlays
 from window_driver import SIZE, Key
 
 from lucida.app.images.pair.actions import LINEAR
 from lucida.app.images.pair.view import RASTER, RAY
-from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.raster import Display
 
 
 def drive_pixels_can_be_large_and_are_marked(d):
-    before = d.renderers.size
-    d.menu("Image/Resolution/Window, pixels 8 x 8")
+    d.menu("Image/Resolution/64 x 36")
     d.press(Key.mod_alt | Key.x)  # without the pixel grid
     d.settle()
-    assert d.renderers.size == (before[0] // 8, before[1] // 8)
+    assert d.renderers.size == (64, 36)
     raster, ray = d.images()
-    assert raster.shape[:2] == (8 * d.renderers.size[1], 8 * d.renderers.size[0])
-    blocks = raster.reshape(d.renderers.size[1], 8, d.renderers.size[0], 8, 3)
+    side = raster.shape[0] // 36
+    assert side > 4 and raster.shape[:2] == (36 * side, 64 * side)
+    blocks = raster.reshape(36, side, 64, side, 3)
     assert (blocks == blocks[:, :1, :, :1]).all()  # nearest neighbour: no pixel is blurred
     x, y, *_ = d.rect(RASTER)
-    d.move_to((x + 8 * 20 + 4, y + 8 * 30 + 4))
+    d.move_to((x + side * 20 + side // 2, y + side * 30 + side // 2))
     assert d.window.hovered == (RASTER, (30, 20))
     d.stay = True
     marked = d.images()[1]
     places = np.argwhere(np.abs(marked - ray).max(axis=2) > 8)
-    assert places.min(axis=0).tolist() == [8 * 30 - 2, 8 * 20 - 2]
-    assert places.max(axis=0).tolist() == [8 * 31 + 1, 8 * 21 + 1]
+    assert places.min(axis=0).tolist() == [side * 30 - 2, side * 20 - 2]
+    assert places.max(axis=0).tolist() == [side * 31 + 1, side * 21 + 1]
 
 
 def drive_windows_can_be_hidden(d):
@@ -97,38 +96,6 @@ def drive_channels_follow_a_drag(d):
     hits = frame.depth[np.isfinite(frame.depth)]
     assert abs(near - hits.min()) < 1e-4
     assert abs(far - hits.max()) < 1e-3
-
-
-def drive_resolutions_are_fixed_and_fitted(d):
-    window, both = d.window, d.renderers
-    for text, size in (("16 x 9", (16, 9)), ("4 x 3", (4, 3)), ("1280 x 720", (1280, 720))):
-        choose(d, f"Resolution/{text}")
-        assert both.size == size
-        for name in (RASTER, RAY):
-            at = placement(d, name)
-            assert at.visible_parts == (0, 0, 1, 1)
-            left, top, right, bottom = d.rect(name)
-            scale = framebuffer_scale()
-            assert (round((right - left) * scale), round((bottom - top) * scale)) == at.extent
-        assert at.whole == (size[0] < 1000)
-    # A size of one's own.
-    d.press(ALT | Key.s)
-    d.ctx.key_chars_replace_enter("nonsense")
-    d.frames(3)
-    assert both.size == (1280, 720)
-    assert "nonsense" in window.box.problem
-    d.ctx.key_chars_replace_enter("37x23")
-    d.frames(3)
-    d.settle()
-    assert both.size == (37, 23)
-    assert window.box is None
-    d.press(ALT | Key.w)
-    d.settle()
-    assert window.state.images.resolution is None
-    while window.can_undo():
-        window.undo()
-    d.settle()
-    assert window.state == d.start
 
 
 def drive_the_strip_does_the_same(d):

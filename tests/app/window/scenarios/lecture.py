@@ -1,6 +1,5 @@
 """The guided lecture: its steps, keys and buttons, its column, the file that is edited."""
 
-import threading
 from dataclasses import replace
 
 import numpy as np
@@ -9,8 +8,6 @@ from lecture_window import SMALL, give, lecture_of, number_of, shown
 from option_changes import with_options
 from window_driver import SIZE, Key, changed
 
-from lucida.app.lecture import view
-from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.step_options import state_of
 from lucida.app.lecture.view import LECTURE
 from lucida.app.ui import formula, layout
@@ -205,38 +202,6 @@ def drive_the_column_keeps_its_share_of_a_window_that_grows(d):
         assert np.allclose(shares(), before, atol=0.02)
 
 
-def drive_in_a_narrow_column_no_button_is_cut_off(d):
-    give(d)
-    for size in ((1600, 720), SIZE, (640, 480)):
-        d.resize(size)
-        low_x, low_y, high_x, high_y = d.stage.rects[LECTURE]
-        box = d.box(f"//{LECTURE}/>##next")
-        assert low_x <= box.min.x < box.max.x <= high_x
-        assert low_y <= box.min.y < box.max.y <= high_y
-
-
-def drive_a_column_that_was_widened_stays_so(d):
-    give(d)
-
-    def left():
-        return d.stage.rects[LECTURE][0]
-
-    before, top = left(), d.stage.rects[LECTURE][1]
-    edge = (before - lecture_of(d).padding.x - 1, top + 200)
-    d.drag(edge, (edge[0] - 150, edge[1]))
-    d.settle()
-    widened = left()
-    assert widened < before - 100
-    for steps in (1, -1):
-        lecture_of(d).advance(d.window, steps)
-        d.settle()
-        d.until(lambda: abs(left() - widened) < 3)
-    layout.reset()  # what the user asks for gives the layout's own
-    d.frames(6)
-    d.settle()
-    assert abs(left() - before) < 3
-
-
 def drive_a_lecture_is_read_again_when_it_is_saved(d):
     give(d)
     session = lecture_of(d).session
@@ -261,32 +226,6 @@ def drive_a_lecture_is_read_again_when_it_is_saved(d):
     d.until(lambda: not session.error)
     d.settle()
     assert d.state.scene.name == "canonical camera"
-
-
-def drive_a_lecture_that_is_read_again_does_not_take_the_place_of_another(d):
-    give(d)
-    first = lecture_of(d).session
-    begun, gate = threading.Event(), threading.Event()
-    again = view.reread
-
-    def slow(session):
-        begun.set()
-        assert gate.wait(60)
-        return again(session)
-
-    view.reread = slow
-    try:
-        first.path.write_text(SMALL.replace('"Small"', '"Newer"'))
-        d.until(begun.is_set)
-    finally:
-        view.reread = again
-    lecture_of(d).give(load_lecture(BUILTIN), BUILTIN)
-    d.frames(3)
-    gate.set()
-    d.settle()
-    second = lecture_of(d).session
-    assert second.lecture.title != "Newer" and second.path == BUILTIN
-    assert number_of(d) == 0
 
 
 def drive_a_lecture_is_opened_and_dropped(d):

@@ -12,7 +12,6 @@ from lucida.app.ui import layout, theme
 from lucida.app.window.hints import Hints
 from lucida.app.window.platform import begin_letters, lock_letters
 
-SIDE = layout.LAYOUTS[0].name
 CTRL, SHIFT = Key.mod_ctrl, Key.mod_shift
 
 
@@ -115,23 +114,6 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d):
     assert stage.is_shown(RASTER)
     d.menu("###Layout/Reset the layout")
     d.settle()
-
-
-def boxes(d):
-    rects = d.stage.rects
-    return {name: tuple(map(round, rects[name])) for name in sorted(rects)}
-
-
-def drive_an_opened_view_is_as_large_as_the_main_one(d):
-    stage = d.stage
-    into(d, SIDE)
-    room = boxes(d)[RASTER]
-    stage.show("Mistakes")
-    d.frames(4)
-    left, top, right, bottom = boxes(d)["Mistakes"]
-    assert (right - left) * (bottom - top) > 0.9 * (room[2] - room[0]) * (room[3] - room[1])
-    stage.show("Mistakes", False)
-    into(d, SIDE)
 
 
 def drive_a_view_is_maximised_and_comes_back(d):

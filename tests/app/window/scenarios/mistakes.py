@@ -3,8 +3,7 @@
 import numpy as np
 from maximised import Maximised
 
-from lucida.app.instruments.mistakes.view import MISTAKES, MistakesView
-from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
+from lucida.app.instruments.mistakes.view import MistakesView
 from lucida.renderer.images import to_srgb8
 
 ALONE = Maximised(MistakesView, "mistakes")
@@ -69,24 +68,3 @@ def drive_a_click_marks_a_pixel_in_all_views(d):
     d.settle()
     assert d.state.marked is None
     ALONE.close(d)
-
-
-def drive_the_outside_view_shows_the_wrong_camera(d):
-    d.stage.show(OUTSIDE)
-    d.settle()
-    d.stage.show(MISTAKES)
-    d.change(marked=(100, 100))
-    d.settle()
-    view = d.window.view(MistakesView)
-    names = {item.name for item in d.window.view(OutsideView).extensions.lines}
-    assert view.made and {"second edges", "second ray"} <= names
-    _ = d.picture()
-    d.change(mistakes={"chosen": ()})
-    d.settle()
-    assert not d.window.view(OutsideView).extensions.lines
-    d.change(mistakes={"chosen": ("no eye",)})
-    d.settle()
-    assert d.window.view(OutsideView).extensions.lines
-    d.stage.show(MISTAKES, False)
-    d.settle()
-    assert not d.window.view(OutsideView).extensions.lines  # who is not seen shows nothing

@@ -63,30 +63,6 @@ def drive_the_mouse_turns_moves_and_zooms(d):
     d.agreeing_images()
 
 
-def drive_the_wheel_goes_through_nothing(d):
-    """Scrolling faster than images are finished: the point under the mouse stays the aim."""
-    window = d.window
-    pixel = (window.renderers.size[1] // 2 + 30, window.renderers.size[0] // 2)
-    x, y, *_ = d.rect(RASTER)
-    d.ctx.mouse_teleport_to_pos((x + pixel[1], y + pixel[0]))  # ImGui's mouse has whole numbers
-    d.frames()
-    corner = pixel[0] - 0.5, pixel[1] - 0.5
-    ray = window.renderers.camera(window.state).ray(*corner, window.renderers.size)
-    aim = ray.origin + window.renderers.depth_at(window.state, pixel) * ray.direction
-    for _ in range(30):
-        d.ctx.mouse_wheel_y(3)
-    d.frames(2)
-    to_aim = aim - np.asarray(window.state.camera.eye)
-    assert to_aim @ ray.direction > -0.01, "the eye has gone through what was under the mouse"
-    assert np.linalg.norm(to_aim) < 0.01, to_aim
-    for _ in range(20):
-        d.ctx.mouse_wheel_y(-10)
-    d.frames(2)
-    assert 100 < np.linalg.norm(window.state.camera.eye) < 1e4
-    d.press(Key.home)
-    assert window.state == d.start
-
-
 def drive_the_object_under_the_mouse_is_framed(d):
     d.settle()
     window = d.window

@@ -3,7 +3,6 @@
 import numpy as np
 from objects_window import (
     CTRL,
-    SHIFT,
     ball,
     click,
     enter,
@@ -82,22 +81,6 @@ def drive_outlines_end_where_the_image_does(d):
 # The list.
 
 
-def drive_rows_are_chosen_as_everywhere(d):
-    enter(d)
-    names = [row.shown for row in rows_of(d.state.scene)]
-    d.click(in_list(d, names[1]))
-    assert now(d) == (names[1],)
-    with held(d, Key.mod_ctrl):
-        d.click(in_list(d, names[3]))
-    assert now(d) == (names[1], names[3])
-    with held(d, Key.mod_shift):
-        d.click(in_list(d, names[1]))
-    assert now(d) == (names[3],)
-    d.press(CTRL | Key.a)
-    assert now(d) == tuple(names)
-    d.press(Key.escape)
-
-
 def drive_what_is_typed_edits_no_object(d):
     """Delete, Ctrl+A and D are the text's while a field has the keyboard."""
     enter(d)
@@ -112,19 +95,6 @@ def drive_what_is_typed_edits_no_object(d):
     assert d.state.scene is before
     assert now(d) == ("box",)
     d.press(Key.escape)
-
-
-def drive_the_palette_edits_what_is_chosen(d):
-    """Though its own field has the keyboard."""
-    enter(d)
-    count = len(rows_of(d.state.scene))
-    d.window.amend(choose(d.state, (item(d, "box"),)))
-    for words, more in (("duplicate", 1), ("delete", 0)):
-        d.press(CTRL | SHIFT | Key.p)
-        d.ctx.key_chars(words)
-        d.frames(3)
-        d.press(Key.enter)
-        assert len(rows_of(d.state.scene)) == count + more, words
 
 
 def drive_a_checkbox_hides_from_both_images(d):
@@ -156,36 +126,6 @@ def drive_a_number_that_is_dragged_is_one_step(d):
     window.undo()
     assert ball(d, "matte sphere").radius == radius
     assert now(d) == ("matte sphere",)
-
-
-def drive_a_material_is_changed_for_one_object(d):
-    enter(d)
-    window = d.window
-    row = next(row for row in rows_of(window.state.scene) if row.shown == "box")
-    assert window.state.scene.objects[row.ids[0]].material.checker is None
-    before = {entry.material.shininess for entry in window.state.scene.objects}
-    d.click(in_list(d, row.shown))
-    d.click("//###Inspector/##name")
-    d.ctx.key_chars_replace("crate")
-    d.press(Key.tab)
-    assert item(d, "crate") == row.item
-    d.ctx.item_double_click("//###Inspector/##shininess")
-    d.ctx.key_chars_replace_enter("7")
-    d.frames(3)
-    assert {e.material.shininess for e in window.state.scene.objects} == {7.0, *before}
-    d.click("//###Inspector/checker")
-    assert window.state.scene.objects[row.ids[0]].material.checker is not None
-
-
-def drive_nothing_chosen_shows_the_scene_s_own(d):
-    enter(d)
-    before = d.state.scene.background
-    d.ctx.item_double_click("//###Inspector/##sky/##X")
-    d.ctx.key_chars_replace_enter("200")
-    d.frames(3)
-    after = d.state.scene.background
-    assert after[0] > before[0]
-    assert after[1:] == before[1:]
 
 
 # Adding.

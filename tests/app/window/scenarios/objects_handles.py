@@ -6,8 +6,6 @@ from objects_window import (
     ball,
     drag_handle,
     enter,
-    handle_px,
-    in_image,
     item,
     now,
 )
@@ -16,8 +14,6 @@ from window_driver import RASTER, Key
 
 from lucida.app.instruments.objects.choosing import choose
 from lucida.app.instruments.outside.view import OUTSIDE
-from lucida.renderer.editing.changing import fields_of
-from lucida.renderer.editing.moving import bounds_of
 
 
 def drive_handles_move_in_the_images_and_outside(d):
@@ -73,26 +69,3 @@ def choose_to(d, handle, name):
     state = with_options(d.state, objects={"handle": handle})
     d.window.change(choose(state, (item(d, name),)))
     d.settle()
-
-
-def drive_handles_turn(d):
-    window = d.window
-    choose_to(d, "turn", "box")
-    before, steps = fields_of(window.state.scene, item(d, "box")), d.steps
-    middle = bounds_of(window.state.scene, [item(d, "box")]).mean(axis=0)
-    start = np.asarray(in_image(d, RASTER, middle))
-    radius = handle_px(d, RASTER)
-    for part in (1.2, 1.0, 0.8):
-        for angle in np.linspace(0, 2 * np.pi, 12, endpoint=False):
-            grip = start + part * radius * np.array([np.cos(angle), np.sin(angle)])
-            d.move_to(tuple(grip))
-            if not window.views[RASTER].linked.guest.holds(RASTER):
-                continue
-            d.drag(tuple(grip), tuple(grip + 25 * np.array([-np.sin(angle), np.cos(angle)])))
-            d.frames(3)
-            after = fields_of(window.state.scene, item(d, "box"))
-            assert after.rotate_deg != before.rotate_deg
-            assert after.size == before.size
-            assert d.steps == steps + 1
-            return
-    raise AssertionError("no ring was found")

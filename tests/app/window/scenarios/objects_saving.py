@@ -3,7 +3,6 @@
 from objects_window import (
     CTRL,
     SCENE,
-    SHIFT,
     enter,
     item,
     opened,
@@ -94,43 +93,6 @@ def drive_closing_asks_about_what_is_not_saved(d):
     assert "radius = 0.3" in path.read_text()
     window.shell.toasts.clear()
     assert load_scene(path).objects
-
-
-def drive_saving_as_begins_beside_the_scene_s_file(d):
-    enter(d)
-    window, path = d.window, opened(d, name="begun")
-    (d.folder / "elsewhere").mkdir()
-    window.files.dialog.folder = d.folder / "elsewhere"
-    d.press(CTRL | SHIFT | Key.s)
-    assert window.files.dialog.folder == path.parent
-    d.ctx.key_chars("copy")  # in the place of its own name
-    d.press(Key.enter)
-    d.until(lambda: (d.folder / "copy.toml").exists())
-    assert "# A ball" in (d.folder / "copy.toml").read_text()
-    d.settle()
-    window.shell.toasts.clear()
-
-
-def drive_opening_another_scene_asks_about_what_is_not_saved(d):
-    enter(d)
-    window, path = d.window, opened(d, name="leaving")
-    for answer, there in (("Cancel", False), ("Open without saving", True), ("Save", True)):
-        scene = set_field(window.state.scene, [item(d, "ball")], "radius", 0.75)
-        window.change(with_scene(window.state, scene))
-        window.open("spheres")
-        d.until(lambda: window.files.question is not None)
-        assert window.state.scene is scene
-        d.frames(3)
-        d.click(f"//##message/{answer}")
-        if there:
-            d.until(lambda: window.state.scene.name == "spheres")
-            window.undo()
-        assert window.state.scene.name == "kept"
-        assert ("radius" in path.read_text()) == (answer == "Save")
-        if answer != "Save":
-            window.undo()
-    assert not is_unsaved(window.state.scene)
-    window.shell.toasts.clear()
 
 
 def drive_a_dropped_model_is_added_once_the_user_has_said_so(d):

@@ -6,13 +6,7 @@ from outside_window import empty_place, enter, press, scope, view
 from window_driver import Key
 
 from lucida.app.cameras.travel import DURATION_S
-from lucida.app.instruments.outside.projected import Strokes
 from lucida.app.instruments.outside.view import OUTSIDE
-
-
-def ground(d):
-    tools = view(d).tools
-    return tools.ground
 
 
 def looks_from(d):
@@ -20,21 +14,6 @@ def looks_from(d):
     at = view(d).scope
     back = np.asarray(at.camera.w)
     return back / np.linalg.norm(back)
-
-
-def drive_the_other_cameras_motion_leaves_the_scene_as_it_is(d):
-    enter(d)
-    at = view(d).scope
-    d.change(outside={"camera": at.camera})
-    d.settle()
-    shown = ground(d).shown
-    for name in ("eye.x", "distance"):
-        before = view(d).primitives
-        d.drag_field(name, 40)
-        d.until(lambda before=before: view(d).primitives is not before)
-    assert ground(d).shown is shown
-    assert [p for p in view(d).primitives if isinstance(p, Strokes)]
-    d.settle()
 
 
 def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d):
@@ -74,25 +53,6 @@ def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d):
     d.frames(2)
     assert np.allclose(looks_from(d), start, atol=1e-9)
     assert np.allclose(near_end, start, atol=1e-3)
-    d.settle()
-
-
-def drive_an_object_is_aimed_at_smoothly(d):
-    enter(d)
-    window, clock = d.window, Clock(d)
-    at = view(d).scope
-    row, column, _ = at.shown.project(window.focus.center, (round(at.extent.x), round(at.extent.y)))
-    d.move_to((at.origin.x + float(column), at.origin.y + float(row)))
-    d.press(Key.f)
-    d.until(lambda: window.motions.transition.under_way)
-    clock.s += 0.5 * DURATION_S
-    d.until(lambda: window.state.options.outside.camera not in (None, at.camera))
-    half = window.state.options.outside.camera
-    clock.s += DURATION_S
-    d.until(lambda: not window.motions.transition.under_way)
-    end = window.state.options.outside.camera
-    way = np.subtract(end.eye, at.camera.eye)
-    assert 0 < np.subtract(half.eye, at.camera.eye) @ way < way @ way
     d.settle()
 
 

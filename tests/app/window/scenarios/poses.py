@@ -50,17 +50,6 @@ def transforms(d, count=COUNT):
     return path
 
 
-def colmap(d, points):
-    folder = d.folder / f"model{points}" / "sparse" / "0"
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, data in written(ring(COUNT), "colmap").items():
-        (folder / name).write_bytes(data)
-    places = np.random.default_rng(1).uniform(-1, 1, (points, 3))
-    lines = [f"{k} {x} {y} {z} 250 20 250 0.1 1 2\n" for k, (x, y, z) in enumerate(places)]
-    (folder / "points3D.txt").write_text("".join(lines))
-    return folder
-
-
 def opened(d, path):
     d.drop([str(path)])
     d.until(lambda: restored(d.options.poses.file) == str(path))
@@ -124,6 +113,8 @@ def drive_cameras_are_taken_by_click_key_and_double_click(d):
     d.click(f"{WINDOW}/**/###3")
     d.settle()
     assert chosen(d) == 3 and stands_at(d, poses, 3)
+    width, height = d.renderers.size
+    assert abs(width - 4 / 3 * height) < 1, "the photographs' shape"
     assert d.steps == steps + 1
     (lines,) = strokes(d, "other pose")[:1]
     assert len(lines.points)
@@ -160,67 +151,6 @@ def drive_cameras_are_taken_by_click_key_and_double_click(d):
         d.settle()
     d.move_to((3, 700))
     assert view(d).hovered is None and not strokes(d, "mark pose")
-
-
-def drive_a_passage_is_one_step_with_the_choice(d):
-    poses = opened(d, transforms(d))
-    steps = d.steps
-    start = d.state
-    transition = d.window.motions.transition
-    transition.instant, clock = False, transition.now_s
-    time_s = 100.0
-    transition.now_s = lambda: time_s
-    try:
-        view(d).take(d.window, 5)
-        d.frames(2)
-        assert chosen(d) == 5 and d.state.view == start.view
-        time_s += 0.2
-        d.frames(2)
-        assert not stands_at(d, poses, 5) and d.state.view != start.view
-        view(d).take(d.window, 6)  # before it is there: at once, and the first is a step of its own
-        d.frames(2)
-        assert chosen(d) == 6 and stands_at(d, poses, 6)
-        assert d.steps == steps + 2
-        d.undo()
-        d.frames(2)
-        assert chosen(d) == 5 and stands_at(d, poses, 5)
-        d.undo()
-        d.frames(2)
-        assert d.state == start
-    finally:
-        transition.now_s, transition.instant = clock, True
-
-
-def drive_points_are_framed_drawn_and_left_out(d):
-    poses = opened(d, colmap(d, 3000))
-    assert len(poses.points) == 3000
-    d.change(outside={"camera": None})
-    d.click(f"{WINDOW}/###frame")
-    d.move_to((3, 700))
-    d.settle()
-    assert d.options.outside.camera is not None
-    at = scope(d)
-    for eye in poses.origins.mean(axis=1):
-        x, y = place(d, eye)
-        assert at.origin.x < x < at.origin.x + at.extent.x
-        assert at.origin.y < y < at.origin.y + at.extent.y
-
-    def magenta():
-        shown = d.picture().astype(int)
-        left, top, right, bottom = (round(e) for e in d.stage.rects["Outside"])
-        cut = shown[top:bottom, left:right]
-        return int(((cut[..., 0] > 150) & (cut[..., 1] < 60) & (cut[..., 2] > 150)).sum())
-
-    assert magenta() > 1000
-    d.click(f"{WINDOW}/points")
-    d.move_to((3, 700))
-    d.settle()
-    assert magenta() < 100 and not d.options.poses.points
-    d.undo()
-    d.settle()
-    assert magenta() > 1000
-    d.undo()
-    assert d.options.outside.camera is None
 
 
 def drive_the_photograph_follows_the_set(d):
@@ -273,19 +203,3 @@ def drive_a_mistake_is_reported_and_a_set_follows_its_file(d):
     path.write_text(json.dumps(table))
     d.until(lambda: view(d).poses is not None and len(view(d).poses.names) == COUNT - 1)
     d.until(lambda: chosen(d) == 1 and not d.files.message)  # the same camera, by its name
-
-
-def drive_a_lecture_shows_a_set(d):
-    transforms(d)
-    path = d.folder / "poses.toml"
-    path.write_text(
-        'title = "Poses"\n[[steps]]\ntitle = "a set"\nviews = ["poses", "outside"]\n'
-        f'options.poses.file = "set{COUNT}/transforms.json"\noptions.poses.pose = 2\n'
-    )
-    d.files.open_lecture(str(path))
-    d.until(lambda: chosen(d) == 2)
-    d.until(lambda: POSES in d.stage.rects and view(d).poses is not None)
-    d.settle()
-    d.window.lecture.leave(d.window)
-    d.frames(5)
-    d.settle()

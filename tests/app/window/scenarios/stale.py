@@ -2,11 +2,8 @@
 
 import numpy as np
 from option_changes import with_options
-from window_driver import Key
 
 from lucida.app.images.pair.view import RASTER, RAY
-from lucida.app.state.app_state import History
-from lucida.app.state.session import from_bytes, session_of, to_bytes
 from lucida.renderer.camera.navigation import orbited
 
 COMPARE = "Compare"
@@ -93,37 +90,3 @@ def drive_without_a_ray_view_the_status_is_of_the_raster_image(d):
     window.shell.stage.show(RASTER, True)
     window.shell.stage.show(RAY, True)
     d.frames(5)
-
-
-def drive_a_mark_keeps_its_ray_in_other_layouts_after_a_restart_and_undo(d):
-    window, both = d.window, d.renderers
-    pixel = both.size[1] // 3, both.size[0] // 4
-    d.change(marked=pixel)
-    d.settle()
-
-    def direction():
-        ray = both.camera(window.state).ray(*window.state.marked, both.size)
-        return ray.direction / np.linalg.norm(ray.direction)
-
-    def is_kept():
-        pixel_size = 2.0 / min(both.size)
-        return float(np.linalg.norm(direction() - first)) < pixel_size
-
-    first, size = direction(), both.size
-    d.change(shadows=True)
-    kept = to_bytes(session_of(window.state, window.shell.stage.arrangement()))
-    d.layout(COMPARE)
-    assert both.size != size and is_kept()
-    window.undo()
-    d.settle()
-    assert is_kept(), "after undo"
-    window.history = History(from_bytes(kept).state(window.state.scene))  # the window begins anew
-    for view in window.views.values():
-        view.begin_anew()
-    d.frames(3)
-    d.settle()
-    assert is_kept(), "after a restart in another layout"
-    d.layout("Side by side")
-    assert window.state.marked == pixel
-    d.press(Key.escape)
-    assert window.state.marked is None

@@ -4,12 +4,11 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from imgui_bundle import hello_imgui, imgui
-from window_driver import Key
+from imgui_bundle import hello_imgui
 
 from lucida.app.checking.tasks import Limits
-from lucida.app.checking.your_code import model, panel
-from lucida.app.checking.your_code.view import YOUR_CODE, YourCodeView
+from lucida.app.checking.your_code import runs
+from lucida.app.checking.your_code.view import YOUR_CODE, YourCode
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.paths import stored
 from lucida.app.ui import layout
@@ -27,20 +26,11 @@ def viewing_ray(i, j, width, height, camera):
     return camera.eye, [x * a + y * b - d * c for a, b, c in zip(camera.u, camera.v, camera.w)]
 """
 CORNER = RIGHT.replace("(j + 0.5)", "j")
-TASKS = """
-lucida = 1
-[conventions]
-pixels_from = 1
-[[tasks]]
-kind = "viewing-ray"
-name = "counting"
-projection = "both"
-"""
 
 
 def view(d):
     found = d.window.views[YOUR_CODE]
-    assert isinstance(found, YourCodeView) and found.runs is not None
+    assert isinstance(found, YourCode)
     return found
 
 
@@ -135,24 +125,24 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
 
 def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
-    runs = view(d).runs
-    d.until(lambda: runs.running_s > 0.1)
+    its = view(d).runs
+    d.until(lambda: its.running_s > 0.1)
     frames = 0
     while frames < 30:  # the window goes on meanwhile
         d.frames()
         frames += 1
-    assert runs.busy
+    assert its.busy
     processes = children()
     assert processes
     view(d).ask("stop")
     until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
-    d.until(lambda: not runs.busy)
+    d.until(lambda: not its.busy)
     d.until(lambda: not (children() & processes))
     version = view(d).report.question.content.version
     camera = d.state.camera
     d.window.change(d.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
     d.frames(10)
-    assert not runs.busy  # not by itself
+    assert not its.busy  # not by itself
     assert view(d).report.question.content.version == version
     d.change(your_code={"canvas": (4, 3)})
     until_told(d, "Every ray is correct.")  # it has no fourth row
@@ -162,86 +152,18 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
 
 
 def drive_nothing_runs_that_nobody_sees(d):
-    usual, model.LIMITS = model.LIMITS, Limits(seconds=10_000.0)  # not by itself
+    usual, runs.LIMITS = runs.LIMITS, Limits(seconds=10_000.0)  # not by itself
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
-    runs = view(d).runs
-    d.until(lambda: runs.running_s > 0.1)
+    d.until(lambda: view(d).runs.running_s > 0.1)
     processes = children()
     assert processes
     hello_imgui.switch_layout(layout.LAYOUTS[0].name)
     d.until(lambda: YOUR_CODE not in d.stage.rects)
     d.until(lambda: not (children() & processes))
-    model.LIMITS = usual
+    runs.LIMITS = usual
     write(d, RIGHT)
     d.stage.show_in(YOUR_CODE, layout.LOOPS)
     until_told(d, "Every ray is correct.")
-
-
-def drive_images_are_pictures_and_other_functions_words(d):
-    opened(
-        d,
-        "def to_gray(rgb):\n    return [[(r + g + b) / 3 for r, g, b in row] for row in rgb]\n"
-        "def memory_offset(i, j, width):\n    print('asked', i)\n    return i + j * width\n",
-        "images.py",
-    )
-    until_told(d, "to_gray is wrong.")
-    d.until(lambda: view(d).pictures is not None)
-    d.change(your_code={"task": "memory-offset"})
-    until_told(d, "memory_offset is wrong.", "printed", "asked 0")
-    assert view(d).pictures is None
-
-
-def drive_a_course_s_tasks_are_asked(d):
-    course = d.folder / "hw2.toml"
-    course.write_text(TASKS)
-    opened(d, RIGHT.replace("(j + 0.5)", "(j - 0.5)").replace("(i + 0.5)", "(i - 0.5)"))
-    until_told(d, "768 of 768 rays are wrong.")  # by the built-in tasks: they count from 0
-    d.drop([str(course)])
-    d.until(lambda: d.options.your_code.tasks == stored(str(course)))
-    until_told(d, "Every ray is correct.", "counting: correct in all of")
-    course.write_text(TASKS.replace("pixels_from = 1", ""))  # saved: asked anew
-    until_told(d, "768 of 768 rays are wrong.")
-    course.write_text("lucida = 1\n")
-    until_told(d, "hw2.toml", "tasks")
-    d.click(f"{WINDOW}/###tasks")
-    d.click("//$FOCUSED/built-in tasks")
-    d.until(lambda: d.options.your_code.tasks == "")
-    until_told(d, "768 of 768 rays are wrong.")
-
-
-def drive_the_verdict_is_read_from_afar(d):
-    """In presentation mode, and in large type, the view maximised: the verdict is 1/36 of the
-    window's height at least, and larger than the other words."""
-    sizes = {}
-    coded_text = panel.coded_text
-
-    def drawn(text, *arguments):
-        sizes[text] = imgui.get_font_size()
-        coded_text(text, *arguments)
-
-    opened(d, CORNER)
-    until_told(d, "768 of 768 rays are wrong.", "half a pixel")
-    d.until(lambda: view(d).pictures is not None)
-    stage = d.stage
-    stage.show(YOUR_CODE)
-    d.until(lambda: stage.focused == YOUR_CODE)
-    stage.maximise()
-    panel.coded_text = drawn
-    try:
-        for scale in (1.0, 1.5, 2.0, 3.0):
-            wished = {"font_scale": scale, "presentation": True}
-            d.change(preferences=wished)
-            d.settle()
-            sizes.clear()
-            d.until(lambda: "768 of 768 rays are wrong." in sizes)
-            verdict = sizes.pop("768 of 768 rays are wrong.")
-            assert verdict >= imgui.get_main_viewport().size.y / 36, scale
-            assert sizes and verdict > 1.2 * max(sizes.values()), scale
-    finally:
-        panel.coded_text = coded_text
-        stage.maximise()
-        wished = {"font_scale": 1.0, "presentation": False}
-        d.change(preferences=wished)
 
 
 def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
@@ -284,15 +206,3 @@ def children():
         ):
             found.add(int(entry.parent.name))
     return found
-
-
-def drive_presentation_leaves_the_code_in_sight(d):
-    opened(d, RIGHT)
-    layout.switch(layout.LOOPS)
-    d.until(lambda: layout.current().name == layout.LOOPS)
-    for key, presented in ((Key.f9, True), (Key.escape, False)):
-        d.press(key)
-        assert d.state.preferences.presentation is presented
-        d.frames(4)
-        assert layout.current().name == layout.LOOPS
-        assert YOUR_CODE in d.stage.rects
