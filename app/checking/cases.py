@@ -14,18 +14,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from lucida.app.checking.conventions import Conventions, Shot
-from lucida.app.checking.tasks import CAMERA_KINDS, MOST_CALLS, RIGID_KINDS, CheckTask
+from lucida.app.checking.tasks import CAMERA_KINDS, RIGID_KINDS, CheckTask
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
 
-    from lucida.renderer.scene.model import View
-
-VIEW_SIZE = (8, 6)  # image size for a task's own views
 SIDES = (3, 9)  # of generated images: enough for a fit, with few calls
 
 
@@ -50,87 +46,26 @@ def camera_kinds(conventions: Conventions) -> tuple[str, ...]:
     """Return the kinds of cameras that these words can describe."""
     if conventions.needs_rigid:
         return RIGID_KINDS
-    # Lengths and angles must be the world's, and R must be a rotation.
-    if conventions.space == "camera" or conventions.vision:
+    if conventions.space == "camera":  # lengths and angles must be the world's
         return tuple(kind for kind in CAMERA_KINDS if kind != "skewed")
     return CAMERA_KINDS
 
 
 def shots(task: CheckTask) -> Iterator[Shot]:
-    """Yield the task's own views, then the generated ones, kind by kind from the simplest."""
+    """Yield the task's cameras, kind by kind from the simplest."""
     random = generator(task)
-    conventions = task.conventions
-    for view in task.views:
-        yield shot_of(view, task.size or VIEW_SIZE, conventions)
-    if not task.count:
-        return
-    kinds = [kind for kind in task.cameras if kind in camera_kinds(conventions)]
-    ways = [(kind, projection) for kind in kinds for projection in task.projections]
+    kinds, conventions = task.cameras, task.conventions
     for number in range(task.count):
-        spread = max(task.count, len(ways))
-        kind, projection = ways[number * len(ways) // spread]
-        yield _made_up(kind, projection, task.size, conventions, random)
-
-
-def _made_up(
-    kind: str, projection: str, size: Size | None, conventions: Conventions, random: Random
-) -> Shot:
-    if size is None:
-        size = _size(random)
-    made, target, up = _KINDS[kind](random, size)
-    camera = replace(made, projection=projection)
-    if conventions.needs_rigid and kind != "turned":
-        camera = camera.fitted(size)
-    if conventions.mirrored:
-        camera = _mirrored(camera)
-    return Shot(camera, size, target, up)
-
-
-def shot_of(view: View, size: Size, conventions: Conventions) -> Shot:
-    """Return the shot of a view at a size, mirrored if the conventions are. Target and up are those
-    of an orthonormal camera.
-    """
-    camera = view.for_size(size)
-    if conventions.mirrored and camera.determinant > 0:
-        camera = _mirrored(camera)
-    eye, v, w = (np.asarray(part) for part in (camera.eye, camera.v, camera.w))
-    return Shot(camera, size, _vector(eye - 2.0 * w), _vector(v))
-
-
-def check_size(task: CheckTask, field: str) -> None:
-    """Raise LucidaError if the task's images have too many pixels in total."""
-    width, height = task.size or VIEW_SIZE
-    if (task.count + len(task.views)) * width * height > MOST_CALLS:
-        raise LucidaError(field, f"makes more than {MOST_CALLS} rays", "give smaller images")
-
-
-def is_orthonormal(camera: Camera) -> bool:
-    return bool(np.allclose(camera.basis.T @ camera.basis, np.eye(3), atol=1e-9))
-
-
-def is_symmetric(camera: Camera) -> bool:
-    """Return True if the viewport has 0 in its middle."""
-    left, right, bottom, top = camera.viewport
-    return abs(left + right) + abs(bottom + top) <= 1e-9 * (right - left + top - bottom)
-
-
-def check_views(task: CheckTask) -> None:
-    """Raise LucidaError if the task's words cannot describe one of its views."""
-    rigid = task.conventions.needs_rigid
-    if not rigid and task.conventions.space == "world" and not task.conventions.vision:
-        return
-    for number, view in enumerate(task.views):
-        width, height = task.size or VIEW_SIZE
-        camera = view.for_size((width, height))
-        left, right, bottom, top = camera.viewport
-        wide, high = right - left, top - bottom
-        fits = abs(wide * height - high * width) <= 1e-9 * wide * height
-        if not is_orthonormal(camera) or (rigid and not (is_symmetric(camera) and fits)):
-            raise LucidaError(
-                f"views[{number}]",
-                "cannot be told by an angle of view, a target, a view direction or K, R, t",
-                "give an orthonormal camera with a symmetric viewport, with fit = true",
-            )
+        size = task.size or _size(random)
+        kind = kinds[number * len(kinds) // max(task.count, len(kinds))]
+        made, target, up = _KINDS[kind](random, size)
+        camera = replace(made, projection=task.projection)
+        if conventions.needs_rigid and kind != "turned":
+            camera = camera.fitted(size)
+        if conventions.mirrored:
+            x, y, z = camera.u
+            camera = replace(camera, u=(-x, -y, -z))
+        yield Shot(camera, size, target, up)
 
 
 def _size(random: Random) -> Size:
@@ -142,11 +77,6 @@ def _size(random: Random) -> Size:
 def _vector(values: np.ndarray) -> Vector:
     x, y, z = np.asarray(values, float).tolist()
     return x, y, z
-
-
-def _mirrored(camera: Camera) -> Camera:
-    x, y, z = camera.u
-    return replace(camera, u=(-x, -y, -z))
 
 
 Made = tuple[Camera, Vector, Vector]

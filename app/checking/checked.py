@@ -14,6 +14,7 @@ from lucida.app.checking.kinds.kind import CheckKind
 from lucida.app.checking.running.program import ProgramStudent, told_call
 from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Run
 from lucida.renderer.files.reading import close_matches
+from lucida.renderer.system.errors import one_line, visible
 
 if TYPE_CHECKING:
     from lucida.app.checking.mistakes.diagnosis import Diagnosis
@@ -28,27 +29,21 @@ CHANGES = (
 
 @dataclass(frozen=True)
 class WrongCase:
-    """A case with a wrong answer, in words and in numbers.
+    """A case with a wrong answer.
 
-    call: the call, with its arguments.
-    right, given: the answers as the function would write them.
-    where: the pixel.
     answer: the given answer in the kind's own form, like case.right.
+    lines: the pixel, the call with its arguments, the correct answer and the given one.
     """
 
     case: CheckCase
-    call: str
-    right: str
-    given: str
-    where: str
     answer: Any
+    lines: tuple[str, ...]
 
 
 @dataclass(frozen=True)
 class TaskResult:
     """The result of a task.
 
-    points: the points earned.
     cases, wrong: the number of cases, and of wrong ones.
     failure: the reason why the task could not be tried, with the call that led to it.
     output: the text that the student's code printed.
@@ -56,13 +51,54 @@ class TaskResult:
 
     task: CheckTask
     status: Status
-    points: float
-    cases: int
+    cases: int = 0
     wrong: int = 0
     first: WrongCase | None = None
     failure: Failure | None = None
     diagnosis: Diagnosis | None = None
     output: str = ""
+
+    @property
+    def points(self) -> float:
+        """The points earned: all, or none."""
+        return self.task.points if self.status == "right" else 0.0
+
+    @property
+    def verdict(self) -> Status | None:
+        """The status, which the task's feedback may withhold; never that of a failure."""
+        withheld = self.task.feedback == "nothing" and self.failure is None
+        return None if withheld else self.status
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """All that helps and that the task's feedback allows to report.
+
+        The reason for a failure, with the call that led to it, is always included: without it,
+        nobody could correct the code.
+        """
+        if self.failure is not None:
+            return one_line(self.failure.text), *failure_lines(self.failure)
+        if self.first is None or self.task.feedback in ("nothing", "verdict"):
+            return ()
+        sentences = self.diagnosis.sentences if self.diagnosis is not None else ()
+        are = "is" if self.wrong == 1 else "are"
+        count = f"{self.wrong} of {self.cases} cases {are} wrong; the first one:"
+        return *sentences, count, *self.first.lines
+
+    @property
+    def printed(self) -> str:
+        """The printed text, without what would change the terminal."""
+        if self.verdict is None:
+            return ""
+        return visible(self.output.replace("\r\n", "\n")).rstrip()
+
+
+def failure_lines(failure: Failure) -> list[str]:
+    """Return the student's own lines, without the last one if the failure's text repeats it."""
+    lines = [visible(line.rstrip()) for line in failure.traceback]
+    if lines and lines[-1] in failure.text:
+        del lines[-1]
+    return lines if len(lines) > 1 else []
 
 
 def check(student: ProgramStudent, tasks: Sequence[CheckTask]) -> Iterator[TaskResult]:
@@ -128,11 +164,10 @@ def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:
         return failed(task, failure, len(cases), run.output)
     wrong = kind.wrong(task, cases, given)
     if not wrong.any():
-        return TaskResult(task, "right", task.points, len(cases), output=run.output)
+        return TaskResult(task, "right", len(cases), output=run.output)
     return TaskResult(
         task,
         "wrong",
-        0.0,
         len(cases),
         int(np.count_nonzero(wrong)),
         _first_wrong(task, kind, cases, given, wrong),
@@ -154,7 +189,7 @@ def _diagnosis(
 
 def failed(task: CheckTask, failure: Failure, cases: int = 0, output: str = "") -> TaskResult:
     """Return the result of a task that could not be tried."""
-    return TaskResult(task, "failed", 0.0, cases, failure=failure, output=output)
+    return TaskResult(task, "failed", cases, failure=failure, output=output)
 
 
 def status_of(results: Sequence[TaskResult]) -> int:
@@ -177,7 +212,8 @@ def _first_wrong(
     wrong: NDArray[np.bool_],
 ) -> WrongCase:
     number = int(np.argmax(wrong))
-    case = cases[number]
-    where, right, answer = kind.first_wrong(task, case, given[number])
+    case, answer = cases[number], given[number]
+    where, right, shown = kind.first_wrong(task, case, answer)
     (call,) = kind.calls(task, [case])
-    return WrongCase(case, told_call(call, LONGEST_VALUE), right, answer, where, given[number])
+    lines = where, told_call(call, LONGEST_VALUE), f"correct: {right}", f"given: {shown}"
+    return WrongCase(case, answer, lines if where else lines[1:])

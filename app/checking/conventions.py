@@ -8,7 +8,6 @@ pixel and the image's size. docs/checking.md has the table for users.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -61,11 +60,6 @@ class Conventions:
         """True if they can describe only an orthonormal camera with a symmetric viewport."""
         return not RIGID_WORDS.isdisjoint(self.words)
 
-    @property
-    def vision(self) -> bool:
-        """True if they describe the camera as computer vision does, by K, R and t."""
-        return not VISION_WORDS.keys().isdisjoint(self.words)
-
     def explained(self, meaning: str) -> str:
         """Return a word's meaning in these conventions: first is the number of the first row and
         column, near the edge where rows begin.
@@ -77,13 +71,6 @@ class Conventions:
         )
         far = "bottom" if self.rows == "top" else "top"
         return meaning.format(first=self.base, near=self.rows, far=far, axes=", ".join(axes))
-
-    @property
-    def first_center(self) -> float:
-        """The first pixel's centre in the coordinates of K: its integers are the numbers of columns
-        and rows, or at the pixels' corners if the words of the pixel count from there.
-        """
-        return 0.5 if {"x_pixel", "y_pixel", "xy_pixel"} & self.words else float(self.base)
 
     @property
     def mirrored(self) -> bool:
@@ -105,14 +92,10 @@ class Shot:
     up: Vector
 
 
-PIXEL_WORDS, VISION_WORDS = GROUPS["pixel"], GROUPS["vision"]
-CAMERA_WORDS = {**GROUPS["camera"], **VISION_WORDS}
+PIXEL_WORDS, CAMERA_WORDS = GROUPS["pixel"], GROUPS["camera"]
 
 # Arguments that hold two numbers.
 PAIRS = {word: tuple(PARTS[word]) for word in GROUPS["pairs"]}
-
-FOCAL_WORDS = frozenset({"K", "fx", "fy"})
-VISION_AXES = (1, -1, -1)
 
 # Only an orthonormal camera with a symmetric viewport has these values.
 RIGID_WORDS = {"target", "up", "forward"}
@@ -172,33 +155,11 @@ def camera_values(shot: Shot, conventions: Conventions) -> dict[str, Any]:
     words = camera_words(camera, shot.size, conventions.axes)
     words["rotation"] = words["camera_to_world"][:3, :3]
     words["top_left"] = words["bottom_left"] + words["vertical"]
-    if conventions.vision:
-        words |= _vision_words(shot, conventions.first_center, words)
     words |= {"target": shot.target, "up": shot.up, "viewport": camera.viewport}
     words |= {"projection": camera.projection, "size": shot.size}
     values = {name: np.asarray(value).tolist() for name, value in words.items()}
     values[CAMERA] = {name: values[word] for name, word in conventions.camera}
     return values
-
-
-def _vision_words(shot: Shot, first_center: float, words: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the values of VISION_WORDS, of an orthonormal camera. words: the other ones."""
-    camera, (width, height) = shot.camera, shot.size
-    left, right, bottom, top = camera.viewport
-    across, down = width / (right - left), height / (top - bottom)  # pixels a world unit
-    origin, pose = first_center - 0.5, words["world_to_camera"]
-    k = np.array(
-        [
-            [camera.distance * across, 0.0, origin - left * across],
-            [0.0, camera.distance * down, origin + top * down],
-            [0.0, 0.0, 1.0],
-        ]
-    )
-    return {
-        "K": k, "fx": k[0, 0], "fy": k[1, 1], "cx": k[0, 2], "cy": k[1, 2],
-        "R": pose[:3, :3], "t": pose[:3, 3],
-        "cam_from_world": pose, "world_from_cam": words["camera_to_world"],
-    }  # fmt: skip
 
 
 def argument_lists(

@@ -12,9 +12,9 @@ import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 
-from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS, Conventions
+from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS
 from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.mistakes.programs import programs
+from lucida.app.checking.mistakes.programs import program_of
 from lucida.app.checking.mistakes.vectors import FUNCTIONS
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.words import PARTS
@@ -38,8 +38,7 @@ def own_names(task: CheckTask) -> dict[str, str]:
     """
     computed = {
         node.id
-        for its in programs(task)
-        for node in ast.walk(ast.parse(its.source()))
+        for node in ast.walk(ast.parse(program_of(task).source()))
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
     }
     computed |= {"i", "j"} if task.kind == "render" else set()
@@ -98,18 +97,10 @@ def _in_words(task: CheckTask, own: Mapping[str, str], sentence: str) -> str:
         name = own.get(found[1], "")
         return found[0] if name == found[1] else found[0][:-1] + f"`{name}`" if name else ""
 
-    parts = (_of_k(task.conventions, sentence) if task.conventions.vision else sentence).split("`")
+    parts = sentence.split("`")
     parts[::2] = [_PIXEL.sub(place, prose) for prose in parts[::2]]
     parts[1::2] = [_NAME.sub(named, code) for code in parts[1::2]]
     return "`".join(parts)
-
-
-def _of_k(conventions: Conventions, sentence: str) -> str:
-    """Return a sentence on half a pixel for a K whose integers are at the pixels' centres."""
-    is_at_corners = conventions.first_center == 0.5
-    if is_at_corners or not ("0.5" in sentence or "half a pixel" in sentence):
-        return sentence
-    return f"K counts from centre to centre: the first pixel's is at {conventions.first_center:g}."
 
 
 _WIDTH = 96

@@ -7,7 +7,7 @@ of its kind. Every mistake is reported with its file, line and field.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
@@ -15,28 +15,24 @@ from typing import Any
 
 import msgspec
 
-from lucida.app.checking.cases import camera_kinds, check_size, check_views
+from lucida.app.checking.cases import camera_kinds
 from lucida.app.checking.conventions import (
     CAMERA_WORDS,
-    FOCAL_WORDS,
     PAIRS,
     PIXEL_WORDS,
-    VISION_AXES,
     Conventions,
     Named,
 )
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.task_schema import PROJECTIONS, ConventionsTable, TaskFile, TaskTable
-from lucida.app.checking.tasks import CAMERA_KINDS, WITH_CAMERAS, CheckTask, Limits
+from lucida.app.checking.task_schema import ConventionsTable, TaskFile, TaskTable
+from lucida.app.checking.tasks import CAMERA_KINDS, MOST_CALLS, WITH_CAMERAS, CheckTask, Limits
 from lucida.app.ui.explaining.symbols import Notation, spoken
 from lucida.renderer.files.places import Places, located
 from lucida.renderer.files.reading import decode_text, read_file, suggestion
 from lucida.renderer.files.tables import parse_toml, to_struct
 from lucida.renderer.scene.limits import TOML_BYTES
-from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError, under
-from lucida.renderer.system.file_dependencies import noting
 
 TASKS = 100
 # Fields of older files, and their values that may be ignored because they still hold. With others,
@@ -47,6 +43,7 @@ REMOVED: dict[str, tuple[Any, ...]] = {
     "origin": ("exact",),
     "pixel_origin": (),
     "at_threshold": (1,),
+    "views": ([],),
 }
 # Words that give the size of a parallel view.
 SIZED = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
@@ -82,12 +79,7 @@ def builtin_tasks(notation: Notation) -> tuple[CheckTask, ...]:
 def load_tasks(path: str | Path) -> TaskSet:
     """Return the tasks in a file. Raises LucidaError: `file:line: field: problem; remedy`."""
     source = str(path)
-    with noting():  # keeps this file out of suggestions for a missing view
-        return _read(Path(path), source)
-
-
-def _read(path: Path, source: str) -> TaskSet:
-    text = decode_text(read_file(path, TOML_BYTES), source)
+    text = decode_text(read_file(Path(path), TOML_BYTES), source)
     try:
         tables = parse_toml(text)
     except LucidaError as error:
@@ -96,14 +88,12 @@ def _read(path: Path, source: str) -> TaskSet:
         raise error.at_its_line(source) from None
     try:
         removed = _without_removed(tables)
-        return replace(_tasks(to_struct(tables, TaskFile), path.parent), removed=removed)
+        return replace(_tasks(to_struct(tables, TaskFile)), removed=removed)
     except LucidaError as error:
-        if error.source:  # the error is in a view's file
-            raise
         raise located(error, Places(text), source) from None
 
 
-def _tasks(file: TaskFile, folder: Path) -> TaskSet:
+def _tasks(file: TaskFile) -> TaskSet:
     if not 1 <= len(file.tasks) <= TASKS:
         raise LucidaError("tasks", f"holds {len(file.tasks)} tasks", f"give 1 to {TASKS}")
     _check_words("conventions.camera", file.conventions.camera or {}, CAMERA_WORDS)
@@ -114,7 +104,7 @@ def _tasks(file: TaskFile, folder: Path) -> TaskSet:
         with under(field):
             check_known("kind", entry.kind, KINDS)
             base = next(t for t in builtin_tasks(file.notation) if t.kind == entry.kind)
-            task = _task(entry, file, base, folder)
+            task = _task(entry, file, base)
             if any(task.name == other.name for other in tasks):
                 remedy = "give each task a name of its own"
                 raise LucidaError("name", f"{task.name!r} is there already", remedy)
@@ -130,9 +120,12 @@ def _without_removed(tables: dict[str, Any]) -> tuple[str, ...]:
     tasks = tables.get("tasks")
     places = {f"tasks[{k}]": table for k, table in enumerate(tasks if type(tasks) is list else ())}
     for place, table in {"conventions": tables.get("conventions"), **places}.items():
-        for name in REMOVED if isinstance(table, dict) else ():
-            if name not in table:
-                continue
+        table = table if isinstance(table, dict) else {}
+        if table.get("projection") == "both":
+            problem = "'both' is of an older version, and made another task"
+            remedy = "give two tasks, perspective and parallel"
+            raise LucidaError(f"{place}.projection", problem, remedy)
+        for name in filter(table.__contains__, REMOVED):
             value = table.pop(name)
             if value not in REMOVED[name]:
                 problem = f"{value!r} is of an older version, and made another task"
@@ -141,7 +134,7 @@ def _without_removed(tables: dict[str, Any]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(names))
 
 
-def _task(entry: TaskTable, file: TaskFile, base: CheckTask, folder: Path = Path()) -> CheckTask:
+def _task(entry: TaskTable, file: TaskFile, base: CheckTask) -> CheckTask:
     """Return the task of a table. base: its values for what the table leaves out."""
     kind = KINDS[entry.kind]
     own: dict[str, Any] = {
@@ -155,20 +148,19 @@ def _task(entry: TaskTable, file: TaskFile, base: CheckTask, folder: Path = Path
         "feedback": entry.feedback or file.feedback,
         "weights": entry.weights,
         "stride": entry.stride,
-        "projections": entry.projection and PROJECTIONS[entry.projection],
+        "projection": entry.projection,
     }
     _check_name("function", own["function"])
     task = replace(
         base,
         points=entry.points,
         conventions=_conventions(entry, file.conventions, kind),
-        views=tuple(_views(entry.views, folder)),
         column_major=entry.order == "column-major",
         **{name: value for name, value in own.items() if value is not None},
     )
     if task.kind in WITH_CAMERAS:
         return _with_cameras(task, entry.cameras)
-    for name in ("cameras", "views", "size"):
+    for name in ("cameras", "size"):
         if getattr(entry, name):
             raise LucidaError(name, f"{task.kind} has no cameras", "leave it out")
     return task
@@ -201,13 +193,7 @@ def _conventions(entry: TaskTable, shared: ConventionsTable, kind: CheckKind) ->
     if "camera" in said:
         _check_words("camera", entry.camera or {}, CAMERA_WORDS)
         conventions = replace(conventions, camera=tuple(said["camera"].items()))
-    is_vision = conventions.vision and kind.name in WITH_CAMERAS
-    axes = said["axes"].signs if "axes" in said else VISION_AXES if is_vision else (1, 1, 1)
-    if is_vision and (axes != VISION_AXES or conventions.rows == "bottom"):
-        field = "rows" if axes == VISION_AXES else "axes"
-        problem = "differs from K, R and t: x right, y down from the top, z forward"
-        raise LucidaError(field, problem, "leave it out")
-    return replace(conventions, axes=axes)
+    return replace(conventions, axes=said["axes"].signs) if "axes" in said else conventions
 
 
 def _arguments(given: list[str] | dict[str, str] | None, kind: CheckKind) -> Named:
@@ -254,50 +240,20 @@ def _with_cameras(task: CheckTask, given: list[str] | None) -> CheckTask:
                 f"give {', '.join(possible)}; or u, v, w and viewport for angles and targets",
             )
     words = task.conventions.words
-    angles = sorted(word for word in words if word.startswith("fov") or word in FOCAL_WORDS)
-    if "parallel" in task.projections and angles and words.isdisjoint(SIZED):
+    angles = sorted(word for word in words if word.startswith("fov"))
+    if task.projection == "parallel" and angles and words.isdisjoint(SIZED):
         remedy = "give viewport_height, or perspective alone"
         raise LucidaError("projection", f"a parallel view has no {angles[0]}", remedy)
     cameras = given or [kind for kind in task.cameras if kind in possible]
-    task = replace(task, cameras=tuple(cameras))
-    if not task.count and not task.views:
-        raise LucidaError("cases", "is 0, and there are no views", "give one of them")
-    check_size(task, "size")
-    check_views(task)
-    return task
+    width, height = task.size or (1, 1)
+    if task.count * width * height > MOST_CALLS:
+        raise LucidaError("size", f"makes more than {MOST_CALLS} rays", "give smaller images")
+    return replace(task, cameras=tuple(cameras))
 
 
 def _check_name(field: str, name: str) -> None:
     if not NAME.fullmatch(name):
         raise LucidaError(field, f"{name[:40]!r} is no name", "give letters, digits and _")
-
-
-def _views(views: list[dict[str, Any] | str], folder: Path) -> Iterator[View]:
-    from lucida.renderer.files.load import BUILTIN_SCENES, load_scene
-    from lucida.renderer.files.views import load_view
-
-    for number, view in enumerate(views):
-        if isinstance(view, dict):
-            with under(f"views[{number}]"):
-                yield camera_view(view)
-        elif view in BUILTIN_SCENES:
-            yield load_scene(view).view
-        else:
-            try:
-                yield load_view(folder / view)
-            except LucidaError as error:
-                raise error.of_file_in(f"views[{number}]") from None
-
-
-def camera_view(table: dict[str, Any]) -> View:
-    """Return the view of a camera's table. Errors name its fields without "camera."."""
-    from lucida.renderer.files.views import view_from_table
-
-    try:
-        return view_from_table(table)
-    except LucidaError as error:
-        field = error.field.removeprefix("camera").lstrip(".")
-        raise LucidaError(field, error.problem, error.remedy) from None
 
 
 def check_known(field: str, name: str, names: Iterable[str]) -> None:

@@ -9,17 +9,12 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, field
 
+from lucida.app.checking.tasks import Feedback
 from lucida.app.ui.explaining.symbols import Notation
 from lucida.renderer.files.schema import Numbers3, StrictTable
 
 Seed = Annotated[int, Meta(ge=0)]
 Side = Annotated[int, Meta(ge=1, le=512)]  # of a task's images
-PROJECTIONS = {
-    "perspective": ("perspective",),
-    "parallel": ("parallel",),
-    "both": ("perspective", "parallel"),
-}
-FeedbackName = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
 
 
 class AxesTable(StrictTable):
@@ -60,7 +55,6 @@ class TaskTable(ConventionsTable, kw_only=True):
     arguments: words, or name = "word".
     returns: words.
     cases: the number of generated cases.
-    views: cameras as tables, files, or names of built-in scenes.
     weights: of to-gray.
     order, stride: of memory-offset; stride is in bytes per pixel, or 1 to count pixels.
     """
@@ -73,13 +67,12 @@ class TaskTable(ConventionsTable, kw_only=True):
     points: Annotated[float, Meta(ge=0, le=1e6)] = 1.0
     arguments: list[str] | dict[str, str] | None = None
     returns: Annotated[list[str], Meta(min_length=1)] | None = None
-    projection: Literal["perspective", "parallel", "both"] | None = None
+    projection: Literal["perspective", "parallel"] | None = None
     cameras: Annotated[list[str], Meta(min_length=1)] | None = None
-    views: list[dict[str, Any] | str] = field(default_factory=list)
     size: tuple[Side, Side] | None = None
-    cases: Annotated[int, Meta(ge=0, le=1000)] | None = None
+    cases: Annotated[int, Meta(ge=1, le=1000)] | None = None
     seed: Seed | None = None
-    feedback: FeedbackName | None = None
+    feedback: Feedback | None = None
     weights: Numbers3 | None = None
     order: Literal["row-major", "column-major"] | None = None
     stride: int | None = None
@@ -95,7 +88,7 @@ class TaskFile(StrictTable, kw_only=True):
 
     title: str = ""
     seed: Seed | None = None
-    feedback: FeedbackName = "diagnosis"
+    feedback: Feedback = "diagnosis"
     seconds: Annotated[float, Meta(gt=0, le=3600)] | None = None
     memory_mb: Annotated[int, Meta(ge=64, le=1 << 20)] | None = None
     network: bool = False

@@ -9,7 +9,7 @@ A lecturer's own tasks come from a file (task_file.py).
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from lucida.app.checking.conventions import Conventions
 from lucida.app.ui.explaining.symbols import Notation
@@ -17,9 +17,6 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.shared_numbers import LUMINANCE
-
-if TYPE_CHECKING:
-    from lucida.renderer.scene.model import View
 
 Kind = Literal["missing", "exception", "time", "memory", "ended", "answer"]
 
@@ -84,7 +81,6 @@ class Run:
 
 
 Feedback = Literal["nothing", "verdict", "first-wrong", "diagnosis"]
-FEEDBACK: tuple[Feedback, ...] = ("nothing", "verdict", "first-wrong", "diagnosis")
 
 # Kinds of generated cameras, from the simplest; see cases.py.
 CAMERA_KINDS = ("canonical", "moved", "turned", "off-axis", "skewed")
@@ -103,7 +99,6 @@ class CheckTask:
     part: the lecture's step to read.
     text: the description of the task for students.
     cameras: the kinds of generated cameras; count of them in total, from the seed.
-    views: further cameras, given by the task.
     size: of the image; None for a small one for each camera.
     weights: of to_gray.
     column_major, stride: of memory_offset.
@@ -118,9 +113,8 @@ class CheckTask:
     points: float = 1.0
     conventions: Conventions = field(default_factory=Conventions)
     cameras: tuple[str, ...] = CAMERA_KINDS
-    projections: tuple[str, ...] = ("perspective",)
+    projection: Literal["perspective", "parallel"] = "perspective"
     count: int = 10
-    views: tuple[View, ...] = ()
     size: Size | None = None
     seed: int = SEED
     feedback: Feedback = "diagnosis"

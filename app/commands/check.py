@@ -147,7 +147,7 @@ def _why(error: LucidaError) -> list[str]:
     """Return the student's own lines for a file that does not run, and its output up to that
     point.
     """
-    from lucida.app.checking.reports import failure_lines
+    from lucida.app.checking.checked import failure_lines
     from lucida.app.checking.running.file import NotRunnableError
 
     if not isinstance(error, NotRunnableError):

@@ -13,7 +13,6 @@ from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from lucida.app.checking.task_file import camera_view
 from lucida.app.lecture.hiding import HideExercise
 from lucida.app.lecture.model import Step
 from lucida.app.state.app_state import AppState, is_orthonormal
@@ -23,6 +22,7 @@ from lucida.app.state.paths import stored
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files.reading import suggestion
 from lucida.renderer.files.tables import to_struct
+from lucida.renderer.files.views import view_from_table
 from lucida.renderer.system.errors import LucidaError, under
 
 _types = lru_cache(get_type_hints)  # it is slow
@@ -113,10 +113,19 @@ def _part(kind: Any, table: dict[str, Any]) -> dict[str, Any]:
             if not isinstance(value, dict):
                 raise LucidaError(name, "is not a table", f"give e.g. {name}.eye")
             with under(name):
-                changes[name] = camera_view(value).camera
+                changes[name] = _camera(value)
     others = {name: value for name, value in table.items() if name not in changes}
     struct = to_struct(others, _struct(kind))
     return changes | {name: getattr(struct, name) for name in others}
+
+
+def _camera(table: dict[str, Any]) -> Camera:
+    """Return the camera of a table. Errors name its fields without "camera."."""
+    try:
+        return view_from_table(table).camera
+    except LucidaError as error:
+        field = error.field.removeprefix("camera").lstrip(".")
+        raise LucidaError(field, error.problem, error.remedy) from None
 
 
 def _struct(kind: Any) -> type[msgspec.Struct]:

@@ -79,7 +79,9 @@ REMOVED: dict[str, Removed] = {
         "the lens stays in the photograph; COLMAP's image_undistorter takes it out", None
     ),
     "photograph.lay": Removed("a photograph is laid over the images", "over"),
+    "your_code.tasks": Removed("`lucida check --tasks` asks a course's own tasks", ""),
     "images.values": Removed("a pixel's colour is written as the bytes that are shown", "bytes"),
+    "images.pixel_size": Removed("images.resolution sets the number of large pixels", 1),
     "images.tinted": Removed("a single component is shown as gray", False),
     "pair.value": Removed("the laboratory's page 'function' reads an image", False),
     "outside.answers": Removed("a wrong answer is always drawn", True),

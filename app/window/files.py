@@ -28,7 +28,6 @@ from lucida.app.window.opening import (
     OpenedView,
     open_lecture,
     open_sources,
-    open_tasks,
     reread,
 )
 from lucida.renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
@@ -177,13 +176,6 @@ class Files:
 
     def open_code_dialog(self) -> None:
         self.ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
-
-    def open_tasks_dialog(self) -> None:
-        self.ask_open("Open a course's tasks", "Tasks", (TOML_ENDING,), self.open_tasks)
-
-    def open_tasks(self, paths: list[str]) -> None:
-        """Load a file as tasks, whatever it looks like."""
-        self._load(paths[0], lambda _: open_tasks(paths[0]))
 
     def open_photograph_dialog(self) -> None:
         self.ask_open("Open a photograph", "Photographs", PHOTO_ENDINGS, self.open_all)

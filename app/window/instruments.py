@@ -7,7 +7,7 @@ that draws into another one's view, or shares its mouse, comes after that one.
 from __future__ import annotations
 
 from lucida.app.cameras.camera_panel.view import CameraView
-from lucida.app.checking.your_code.instrument import YourCode
+from lucida.app.checking.your_code.view import YourCode
 from lucida.app.images.compare.view import CompareView
 from lucida.app.images.pair.view import RasterView, RayView
 from lucida.app.instruments.costs.view import CostsView

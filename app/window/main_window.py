@@ -13,7 +13,7 @@ from pathlib import Path
 import moderngl
 from imgui_bundle import hello_imgui
 
-from lucida.app.checking.your_code.view import YourCodeView
+from lucida.app.checking.your_code.view import YourCode
 from lucida.app.images.compare.actions import show_differing
 from lucida.app.images.pair.view import RASTER
 from lucida.app.images.renderers import Renderers
@@ -174,7 +174,7 @@ class MainWindow(Edits):
 
     def open_code(self, path: str) -> None:
         """Run the user's own Python file, in its view. path: absolute."""
-        self.view(YourCodeView).open(self, path)
+        self.view(YourCode).open(self, path)
 
     def retry(self) -> None:
         """Retry what a renderer or a view has failed at."""

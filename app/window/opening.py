@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, TypeVar
 
-from lucida.app.checking.task_file import load_tasks
 from lucida.app.images.photograph.reading import found_photograph
 from lucida.app.instruments.poses.model import PoseSet
 from lucida.app.instruments.poses.reading import open_cameras
@@ -87,28 +86,13 @@ class OpenedCode:
 
 
 @dataclass(frozen=True)
-class OpenedTasks:
-    """The absolute path of a course's tasks, which can be read."""
-
-    path: str
-
-
-@dataclass(frozen=True)
 class OpenedPhotograph:
     """The absolute path of a photograph, which can be read."""
 
     path: str
 
 
-Thing = (
-    OpenedScene
-    | OpenedView
-    | OpenedLecture
-    | OpenedPoses
-    | OpenedCode
-    | OpenedTasks
-    | OpenedPhotograph
-)
+Thing = OpenedScene | OpenedView | OpenedLecture | OpenedPoses | OpenedCode | OpenedPhotograph
 
 
 @dataclass(frozen=True)
@@ -163,7 +147,8 @@ def _read(source: str, agreed: frozenset[Path]) -> Thing | None:
     """Read a source of any kind; None for scenes and models."""
     match kind_of(source):
         case "tasks":
-            return _open_tasks(source)
+            remedy = f"lucida check rays.py --tasks {source}"
+            raise LucidaError("", "holds tasks for students' code", remedy, source)
         case "photograph":
             return OpenedPhotograph(found_photograph(source))
         case "view":
@@ -185,11 +170,6 @@ def _open_scene(source: str, agreed: frozenset[Path] | None, use: Use = "open") 
 
 def _open_lecture(source: str, agreed: frozenset[Path]) -> OpenedLecture:
     return OpenedLecture(load_lecture(source, agreed), Path(source).absolute())
-
-
-def _open_tasks(source: str) -> OpenedTasks:
-    load_tasks(source)
-    return OpenedTasks(str(Path(source).absolute()))
 
 
 def _open_cameras(source: str) -> OpenedPoses | OpenedView:
@@ -215,11 +195,6 @@ def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
     may read. Raises LucidaError.
     """
     return Opened((_open_lecture(source, agreed),), (source,))
-
-
-def open_tasks(source: str) -> Opened:
-    """Read a file as a course's tasks, whatever it looks like. Raises LucidaError."""
-    return Opened((_open_tasks(source),), (source,))
 
 
 def _prepared(scene: Scene) -> Prepared | None:

@@ -10,7 +10,6 @@ from dataclasses import replace
 from functools import partial
 from typing import Protocol
 
-from lucida.app.checking.your_code.view import YourCodeView
 from lucida.app.images.photograph.model import with_photograph
 from lucida.app.instruments.objects.editing import with_scene
 from lucida.app.instruments.poses.model import PoseSet
@@ -25,7 +24,6 @@ from lucida.app.window.opening import (
     OpenedPhotograph,
     OpenedPoses,
     OpenedScene,
-    OpenedTasks,
     OpenedView,
 )
 from lucida.renderer.editing.documents import are_versions, is_unsaved
@@ -63,8 +61,6 @@ def take_opened(window: Taker) -> None:
         match thing:
             case OpenedCode(path):
                 window.open_code(path)
-            case OpenedTasks(path):
-                window.view(YourCodeView).open_tasks(window, path)
             case OpenedPhotograph(path):
                 window.change(with_photograph(window.state, path, shown=True, follows=False))
                 window.files.say("The photograph is laid over the images: Image > Photograph.")

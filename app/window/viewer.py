@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from imgui_bundle import hello_imgui, imgui, immapp
 
+from lucida.app.checking.your_code.view import YourCode
 from lucida.app.instruments.poses.view import PosesView
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import is_unicode
@@ -290,7 +291,8 @@ class WindowRun:
             flush_opengl()
         self._memory.follow(self.window.settled)
         if not self.take_picture:
-            busy = self.window.renderers.busy
+            # A saved program is to run at once.
+            busy = self.window.renderers.busy or self.window.view(YourCode).seen
             self.params.fps_idling.fps_idle = WAITING_FPS if busy else IDLE_FPS
             return
         self._tell_compiling()

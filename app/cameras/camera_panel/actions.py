@@ -114,10 +114,8 @@ def copy(window: Host, form: Form) -> None:
     nothing.
     """
     state = window.state
-    origin = state.scene.origin
-    source = (origin.source if origin is not None else "") or "SCENE"
     shown = window.renderers.camera(state)
-    subject = Subject(state.view, shown, source, window.focus.bounds, image_size(window))
+    subject = Subject(state.view, shown, window.focus.bounds, image_size(window))
     try:
         text = as_text(form, subject)
     except LucidaError as error:

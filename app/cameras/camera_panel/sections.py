@@ -32,7 +32,6 @@ ORIGIN_NOTES: dict[PixelOrigin, str] = {
     "corner": "The image's corner is (0, 0), the first pixel's centre (0.5, 0.5), as in COLMAP.",
 }
 LOOK_FIELDS = (
-    ("eye", "Where the camera is."),
     ("target", "What it looks at: in the middle of an on-axis image."),
     ("up", "Which direction is up in the image; not along the view direction."),
 )
@@ -40,9 +39,8 @@ LOOK_FIELDS = (
 
 @dataclass(frozen=True)
 class LookAt:
-    """The form's contents. eye: None for the camera's own. target: None for the scene's centre."""
+    """The form's contents. target: None for the scene's centre."""
 
-    eye: Vector | None = None
     target: Vector | None = None
     up: Vector = (0.0, 1.0, 0.0)
     error: LucidaError | None = None
@@ -73,17 +71,12 @@ def header(name: str, sections: Sections) -> bool:
 
 
 def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[LookAt, Wish | None]:
-    """Draw the form for eye, target and up."""
+    """Draw the form for target and up, seen from the eye."""
     thirds = rows.Thirds()
-    now = {
-        "eye": look.eye or state.camera.eye,
-        "target": look.target or around.focus.center,
-        "up": look.up,
-    }
+    now = {"target": look.target or around.focus.center, "up": look.up}
     for name, note in LOOK_FIELDS:
         imgui.align_text_to_frame_padding()
-        shown = "e" if name == "eye" else name
-        imgui.text_colored(theme.TEXT, shown)
+        imgui.text_colored(theme.TEXT, name)
         rows.tip(note)
         reach = 1.0 if name == "up" else around.focus.reach
         for axis, letter in enumerate("xyz"):
@@ -103,9 +96,9 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
     wish = None
     if imgui.button("Look there", (-1, 0)):
         try:
-            view = look_at(state.view, now["eye"], now["target"], now["up"])
+            view = look_at(state.view, state.camera.eye, now["target"], now["up"])
             wish = Wish(partial(go_to_view, view=view))
-            look = replace(look, eye=None, error=None)
+            look = replace(look, error=None)
         except LucidaError as error:
             look = replace(look, error=error)
     rows.tip(

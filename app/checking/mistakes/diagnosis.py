@@ -2,28 +2,24 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from lucida.app.checking.cases import is_orthonormal, is_symmetric
 from lucida.app.checking.kinds.kind import Flags
 from lucida.app.checking.kinds.viewing_ray import are_right
 from lucida.app.checking.mistakes.program import Mistakes, Program
 from lucida.app.checking.mistakes.programs import program_of
-from lucida.app.checking.mistakes.trials import candidates, trial_of
+from lucida.app.checking.mistakes.trials import candidates, trials_of
 from lucida.app.checking.own_words import AS_IF, in_the_tasks_words
 from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.state.app_state import is_orthonormal
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 
 Cases = Sequence[CheckCase]
-# By projection: the program, and the mistakes that explain the answers.
-Told = dict[str, tuple[Program, tuple[Mistakes, ...]]]
 
 MOST = 1000  # of cases that are examined; large images have more rays
 NAMED = 3  # candidates named; more would not help
@@ -47,91 +43,39 @@ def diagnosis(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Diagno
     given: the answers in the kind's own form.
     wrong: the wrong ones, bool (N,).
     """
+    found: tuple[Mistakes, ...] = ()
     with np.errstate(all="ignore"):  # a student's numbers may be anything
-        said = _of_all(task, cases, given)
-        found = Diagnosis((said,)) if said else _of_each_projection(task, cases, given, wrong)
-    return replace(found, sentences=in_the_tasks_words(task, found.sentences))
+        sentences = list(_of_all(task, cases, given))
+        if not sentences:
+            chosen = np.argsort(~wrong, kind="stable")[
+                :: -(-len(cases) // MOST)
+            ]  # wrong ones first
+            program = program_of(task)
+            answers = [given[number] for number in chosen]
+            trials = trials_of(task, [cases[number] for number in chosen], answers)
+            found = candidates(program, trials)
+            if found:
+                sentences = _candidate_sentences(program, found)
+            elif task.kind == "viewing-ray":
+                sentences = list(_correct_parts(task, cases, given, wrong))
+    return Diagnosis(in_the_tasks_words(task, sentences), found)
 
 
-def _of_all(task: CheckTask, cases: Cases, given: Any) -> str:
-    """Return a sentence that describes all answers; empty if no sentence does."""
+def _of_all(task: CheckTask, cases: Cases, given: Any) -> Iterator[str]:
+    """Yield a sentence that describes all answers, if there is one."""
     if task.kind == "viewing-ray":
         of_any_length = replace(task.conventions, unit=False)
         right = np.array([case.right for case in cases], float)
         tolerance = np.array([case.tolerance for case in cases], float)
         if are_right(of_any_length, right, np.asarray(given), tolerance).all():
-            return "The directions are correct, but not of length 1: normalise them."
-        return ""
+            yield "The directions are correct, but not of length 1: normalise them."
+        return
     last = np.array([np.ravel(one)[-1] for one in given], float)
-    if "hit" in task.kind and np.isposinf(last).all():
-        return "You never find a hit."
     numbers = np.concatenate([np.ravel(np.asarray(one, float)) for one in given])
-    if len(cases) < 3 or not (numbers == numbers[0]).all():
-        return ""
-    return f"All your answers are {numbers[0]:.4g}, whatever is asked."
-
-
-def _of_each_projection(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Diagnosis:
-    by_projection: dict[str, list[int]] = defaultdict(list)
-    for number in range(len(cases)) if len(cases) <= MOST else _some(wrong):
-        camera = cases[number].camera
-        by_projection[camera.projection if camera else ""].append(number)
-    told: Told = {}
-    for projection, numbers in by_projection.items():
-        if wrong[numbers].any():
-            program = program_of(task, projection)
-            answers = [given[number] for number in numbers]
-            trial = trial_of(task, projection, [cases[number] for number in numbers], answers)
-            told[projection] = program, candidates(program, trial, wrong[numbers])
-    told = _shared(told)
-    sentences = _sentences(told, len(by_projection))
-    if task.kind == "viewing-ray" and not all(found for _, found in told.values()):
-        sentences += _correct_parts(task, cases, given, wrong)
-    every = dict.fromkeys(one for _, found in told.values() for one in found)
-    return Diagnosis(tuple(sentences), tuple(every))
-
-
-def _some(wrong: Flags) -> NDArray[np.intp]:
-    """Return the numbers of at most MOST cases, spread evenly over the wrong and over the other
-    cases. The first of each is included.
-    """
-    parts = (np.flatnonzero(flags) for flags in (wrong, ~wrong))
-    chosen = [part[:: 2 * len(part) // MOST or 1] for part in parts]
-    return np.sort(np.concatenate(chosen))
-
-
-def _names(told: tuple[Program, tuple[Mistakes, ...]]) -> list[tuple[str, ...]]:
-    return [tuple(mistake.name for mistake in one) for one in told[1]]
-
-
-def _shared(told: Told) -> Told:
-    """Keep only the mistakes that explain all projections by the same name, if there are any."""
-    shared = set.intersection(*(set(_names(its)) for its in told.values()))
-    if not shared:
-        return told
-    return {
-        kind: (its[0], tuple(one for one, name in zip(its[1], _names(its), strict=True)
-                             if name in shared))
-        for kind, its in told.items()
-    }  # fmt: skip
-
-
-def _sentences(told: Told, projections: int) -> list[str]:
-    """Return sentences on each projection's candidates; common ones only once. projections: the
-    number of all projections, also of those whose answers are correct.
-    """
-    sentences: list[str] = []
-    seen: list[list[tuple[str, ...]]] = [[]]
-    is_common = len({tuple(_names(its)) for its in told.values()}) == 1 and len(told) > 1
-    for projection, its in told.items():
-        if (names := _names(its)) in seen:
-            continue
-        seen.append(names)
-        if projections > 1 and not is_common:
-            is_perspective = projection == "perspective"
-            sentences.append(f"In {'perspective' if is_perspective else 'parallel projection'}:")
-        sentences += _candidate_sentences(*its)
-    return sentences
+    if "hit" in task.kind and np.isposinf(last).all():
+        yield "You never find a hit."
+    elif len(cases) > 2 and (numbers == numbers[0]).all():
+        yield f"All your answers are {numbers[0]:.4g}, whatever is asked."
 
 
 def _candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str]:
@@ -157,9 +101,14 @@ def _candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[st
 
 # The correct parts of wrong rays, reported when no mistake fits.
 
+
+def is_symmetric(camera: Camera) -> bool:
+    """Return True if the viewport has 0 in its middle."""
+    left, right, bottom, top = camera.viewport
+    return abs(left + right) + abs(bottom + top) <= 1e-9 * (right - left + top - bottom)
+
+
 PLACES: dict[str, Callable[[Camera, Size], bool]] = {
-    "in parallel projection": lambda camera, _: camera.is_parallel,
-    "in perspective": lambda camera, _: not camera.is_parallel,
     "where the basis is orthonormal": lambda camera, _: is_orthonormal(camera),
     "where the viewport is symmetric": lambda camera, _: is_symmetric(camera),
     "where `distance` = 1": lambda camera, _: camera.distance == 1.0,

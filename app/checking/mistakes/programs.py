@@ -12,21 +12,15 @@ from lucida.app.checking.mistakes.catalogue import part
 from lucida.app.checking.mistakes.program import Program
 from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_task, ray_values
 from lucida.app.checking.mistakes.vectors import SHAPES
-from lucida.app.checking.tasks import WITH_CAMERAS, CheckCase, CheckTask
+from lucida.app.checking.tasks import CheckCase, CheckTask
 
 
-def programs(task: CheckTask) -> list[Program]:
-    """Return the programs whose mistakes are looked for: one, or one for each projection."""
-    projections = task.projections if task.kind in WITH_CAMERAS else ("",)
-    return [program_of(task, projection) for projection in projections]
-
-
-def program_of(task: CheckTask, projection: str) -> Program:
-    """Return the program of a task. projection: of the cameras, if the task has any."""
+def program_of(task: CheckTask) -> Program:
+    """Return the program whose mistakes are looked for in a task's answers."""
     if task.kind == "viewing-ray":
-        return ray_program(ray_task(task, projection))
+        return ray_program(ray_task(task))
     if task.kind == "render":
-        return _render_program(ray_task(task, projection))
+        return _render_program(ray_task(task))
     return _value_program(task)
 
 
@@ -86,7 +80,7 @@ def known_values(task: CheckTask, case: CheckCase) -> dict[str, Any]:
 def _image_values(task: CheckTask, case: CheckCase) -> dict[str, Any]:
     """Return the values for all pixels of an image, whose rows count as in the task."""
     assert case.camera is not None and case.size is not None
-    rays = ray_task(task, case.camera.projection)
+    rays = ray_task(task)
     width, height = case.size
     i, j = np.arange(height)[:, None], np.arange(width)
     known = case_values(case, i if rays.from_top else i[::-1], j, rays)

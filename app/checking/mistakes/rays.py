@@ -74,7 +74,7 @@ class RayTask:
     axes: tuple[int, int, int] = (1, 1, 1)
 
 
-def ray_task(task: CheckTask, projection: str = "perspective") -> RayTask:
+def ray_task(task: CheckTask) -> RayTask:
     """Return the conventions of a task in the words of the lines, or in the camera's own words if
     the lines lack them. The loops of an image count from 0, whatever its pixels are counted from.
     """
@@ -90,7 +90,7 @@ def ray_task(task: CheckTask, projection: str = "perspective") -> RayTask:
     words = {word for word in words if word in _KNOWN or word.startswith("fov")}
     words = words - set().union(*_PIXELS) | pixel | {"width", "height"}
     base = 0 if task.kind == "render" else its.base
-    return RayTask(projection, Indexing(base), its.rows == "top", frozenset(words), its.axes)
+    return RayTask(task.projection, Indexing(base), its.rows == "top", frozenset(words), its.axes)
 
 
 @functools.lru_cache(256)

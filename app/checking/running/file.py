@@ -97,7 +97,7 @@ class FileStudent(ProgramStudent):
         """Start a process that runs the file, unless there is one. Return the failure, if any."""
         if self._closed or self._failed:
             return self._failed or Failure("ended", f"{self._name}: it is closed")
-        if self._program and self._used_s < self.limits.seconds:
+        if self._program and not self._program.stopped and self._used_s < self.limits.seconds:
             return None
         self._end()
         self._used_s = 0.0

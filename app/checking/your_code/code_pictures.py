@@ -7,6 +7,7 @@ Includes the thread that makes them, their textures, and the clicked pixel. Ligh
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import moderngl
 import numpy as np
@@ -34,6 +35,7 @@ Bytes = NDArray[np.uint8]
 Floats = NDArray[np.float64]
 SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour
 SAME = "the same colours"  # though rays are wrong
+PICTURES = ("given", "right", "difference")
 IMAGES = ("render", "to-gray", "to-bitmap")  # kinds of functions whose answers are images
 
 
@@ -85,25 +87,15 @@ def image_pair(right: Floats, given: Floats) -> CodePictures:
     return compared(second, first, came, np.zeros(came.shape, bool))
 
 
-@dataclass(frozen=True, eq=False)
-class _Painted:
-    """Linear light (H, W, 3) along the rays of an answer."""
-
-    rays: CodeRays
-    given: NDArray[np.float32]
-    right: NDArray[np.float32]
-
-
 class PicturesShown:
     """The pictures of a report; call follow() once a frame. pictures: the ones on screen; None for
     none.
     """
 
     def __init__(self, host: Host, context: moderngl.Context) -> None:
-        self._painter: RayPictures[_Painted] = RayPictures("lucida-your-pictures", host.animate)
+        self._painter: RayPictures[CodePictures] = RayPictures("lucida-your-pictures", host.animate)
         self._uploads = Uploads(context)
         self._answered = Memo(_answered)
-        self._compared = Memo(_compared)
         self._upload = Memo(_upload)
         self.pictures: CodePictures | None = None
 
@@ -129,8 +121,8 @@ class PicturesShown:
         self._uploads.release()
 
     def follow(self, host: Host, report: CodeReport) -> None:
-        """Update the pictures for the report. The previous ones of the same task and scene stay
-        until the new ones are ready.
+        """Update the pictures for the report. The previous ones of the same scene stay until the
+        new ones are ready.
         """
         rays, state = report.rays, host.state
         if rays is None or not rays.came.any():
@@ -140,11 +132,9 @@ class PicturesShown:
             if result is not None and result.first and result.task.kind in IMAGES:
                 self.pictures = self._answered(result.first)
         else:
-            live = host.renderers.live
-            made = self._painter.follow(rays, state.scene, live, lambda by: _painted(by, rays))
-            self.pictures = None
-            if made is not None and made.rays.task == rays.task:
-                self.pictures = self._compared(made, state.images.exposure_ev)
+            key, live = (rays, state.images.exposure_ev), host.renderers.live
+            make = partial(_painted, rays=rays, exposure_ev=state.images.exposure_ev)
+            self.pictures = self._painter.follow(key, state.scene, live, make)
         self._upload(self._uploads, self.pictures)
 
     def draw(self, host: Host, report: CodeReport, room: ImVec2, marked: Pixel | None) -> None:
@@ -161,21 +151,12 @@ class PicturesShown:
             imgui.end_child()
             return
         are_of_rays = rays is not None and pictures.size == rays.size
-        titles = {
-            "given": ("yours", "", role_color("other")),
-            "right": ("correct", "", None),
-            "difference": ("difference", pictures.told, None),
-        }
+        pixel, color = marked if are_of_rays else None, role_color("other")
+        given, right, difference = map(self._uploads.get, PICTURES)
         grid = [
-            GridPicture(
-                name,
-                title,
-                self._uploads.get(name),
-                caption,
-                frame,
-                marked if are_of_rays else None,
-            )
-            for name, (title, caption, frame) in titles.items()
+            GridPicture("given", "yours", given, frame=color, pixel=pixel),
+            GridPicture("right", "correct", right, pixel=pixel),
+            GridPicture("difference", "difference", difference, pictures.told, pixel=pixel),
         ]
         try:
             answer = picture_grid(grid, pictures.size, room, host.fonts)
@@ -208,20 +189,15 @@ def _answered(first: WrongCase) -> CodePictures:
     return image_pair(first.case.right, first.answer)
 
 
-def _painted(painter: RayPainter, rays: CodeRays) -> _Painted:
+def _painted(painter: RayPainter, rays: CodeRays, exposure_ev: float) -> CodePictures:
     given, right = (
         painter.picture(one[..., 0, :], one[..., 1, :], rays.camera.t_range)
         for one in (rays.given, rays.right)
     )
-    return _Painted(rays, given, right)
-
-
-def _compared(made: _Painted, exposure_ev: float) -> CodePictures:
-    rays = made.rays
-    return compared(made.given, made.right, rays.came, rays.wrong, exposure_ev)
+    return compared(given, right, rays.came, rays.wrong, exposure_ev)
 
 
 def _upload(uploads: Uploads, pictures: CodePictures | None) -> None:
     if pictures is not None:
-        for name in ("given", "right", "difference"):
+        for name in PICTURES:
             uploads.put_pixels(name, getattr(pictures, name))

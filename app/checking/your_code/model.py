@@ -1,7 +1,7 @@
 """The questions to a file about the window's camera, and the rays in its answers.
 
-Turns a task and a camera into cases, and answers into the rays of a small image. A report holds
-the findings on a file as one immutable value: a thread makes it, the view reads it. Pure.
+A report holds the findings on a file as one immutable value: a thread makes it, the view reads it.
+Pure.
 """
 
 from __future__ import annotations
@@ -12,22 +12,20 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.cases import check_views, shot_of
 from lucida.app.checking.checked import TaskResult, judged
+from lucida.app.checking.conventions import Shot
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.viewing_ray import cases_of
-from lucida.app.checking.task_file import BUILTIN, TaskSet, builtin_tasks, load_tasks
-from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Limits, Run
+from lucida.app.checking.task_file import BUILTIN
+from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Run
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.scene.model import View
-from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 
 RAY = "viewing-ray"  # the kind of functions that make pictures of a camera
 EXACT = 1e-6  # pixels: of a corner between four, the upper left one
-LIMITS = Limits(seconds=10.0)  # of the built-in tasks
+ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +36,6 @@ class CodeRays:
     given, right: origins and directions, (H, W, 2, 3); NaN where missing.
     wrong: the wrong rays among those returned, bool (H, W).
     result: that of a check.
-    camera: the window's, mirrored if the course's coordinates are left-handed.
     """
 
     task: CheckTask
@@ -55,69 +52,23 @@ class CodeRays:
         return np.asarray(np.isfinite(self.given).all(axis=(2, 3)))
 
 
-def asked_of(path: str) -> TaskSet:
-    """Return the tasks in a course's file, "" for the built-in ones. Raises LucidaError."""
-    return load_tasks(path) if path else TaskSet("", builtin_tasks("book"), LIMITS)
-
-
-def tasks_of(
-    functions: frozenset[str] | None, asked: Sequence[CheckTask] = BUILTIN
-) -> list[CheckTask]:
-    """Return the tasks whose functions a file has, in order."""
-    return [task for task in asked if functions is None or task.function in functions]
-
-
-def is_of_camera(task: CheckTask) -> bool:
-    """Return True if the answers make a picture of the window's camera that may be shown.
-
-    The course must allow it, because the picture shows what is wrong and where.
-    """
-    return task.kind == RAY and task.feedback in ("first-wrong", "diagnosis")
-
-
 def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
-    """Return the task with that name; without a name, the first that makes a picture of the camera,
-    or else the first.
+    """Return the task with that name; without one, the first that makes a picture of the camera, or
+    else the first.
     """
     wished = (task for task in tasks if task.name == name)
-    pictured = (task for task in tasks if is_of_camera(task))
+    pictured = (task for task in tasks if task.kind == RAY)
     return next(wished, None) or next(pictured, None) or next(iter(tasks), None)
 
 
-def for_camera(task: CheckTask, camera: Camera, asked: Sequence[CheckTask] = BUILTIN) -> CheckTask:
-    """Return the task of the same function for this camera's projection, if there is one."""
-    fitting = (
-        one
-        for one in asked
-        if one.kind == RAY
-        and one.function == task.function
-        and camera.projection in one.projections
-    )
-    return next(fitting, task)
-
-
-def why_not_asked(task: CheckTask, camera: Camera, size: Size) -> str:
-    """Explain why a task cannot be asked for a camera; empty if it can."""
-    if camera.projection not in task.projections:
-        other = "parallel" if "parallel" in task.projections else "perspective"
-        return f"{task.name} is for {other} projection: P switches to it."
-    view = View(camera, fit=False)
-    try:
-        check_views(replace(task, views=(view,), size=size))
-    except LucidaError as error:
-        return (
-            f"{task.name} is not asked of this camera: it {error.problem}. Make it orthonormal, "
-            "with a symmetric viewport, pixels square."
-        )
-    conventions = task.conventions
-    if (conventions.needs_rigid or conventions.vision) and camera.determinant < 0:
-        return f"{task.name} is not asked of this camera: it is left-handed. Turn u round."
-    return ""
+def ray_task_for(camera: Camera) -> CheckTask:
+    """Return the task of a viewing ray for this camera's projection."""
+    return next(one for one in BUILTIN if one.kind == RAY and camera.projection == one.projection)
 
 
 def cases_for(task: CheckTask, camera: Camera, size: Size) -> list[CheckCase]:
     """Return the case of each pixel. camera: for that size."""
-    return cases_of(task, shot_of(View(camera, fit=False), size, task.conventions))
+    return cases_of(task, Shot(camera, size, camera.eye, camera.v))
 
 
 def rays_of(task: CheckTask, size: Size, cases: Sequence[CheckCase], run: Run) -> CodeRays:
@@ -140,8 +91,7 @@ def canvas_pixel(
 ) -> tuple[int, int]:
     """Return the pixel of another image of the same view that is nearest to a pixel's centre.
 
-    The cameras differ in their viewports, or one is the mirror image of the other. Both pixels are
-    (row, column), from 0.
+    The cameras differ in their viewports. Both pixels are (row, column), from 0.
     """
     ray = of.pinhole.ray(*pixel, size)
     seen = to.pinhole.project(ray.origin + ray.direction, to_size)
@@ -149,25 +99,12 @@ def canvas_pixel(
     return min(max(row, 0), to_size[1] - 1), min(max(column, 0), to_size[0] - 1)
 
 
-ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
-
-
 @dataclass(frozen=True)
 class CodeContent:
-    """The file and the tasks of one check.
-
-    path: of the file.
-    tasks: the file of tasks, "" for the built-in ones.
-    version: changes with the content of the file or of the tasks' file.
-    """
+    """One version of a file."""
 
     path: str
-    tasks: str = ""
     version: int = 1
-
-    def is_of_files(self, other: CodeContent) -> bool:
-        """Return True if both are versions of the same files."""
-        return (self.path, self.tasks) == (other.path, other.tasks)
 
 
 @dataclass(frozen=True)
@@ -199,8 +136,6 @@ class CodeReport:
     failure: the reason why the file answers nothing at all.
     output: the text that it printed.
     seconds: the duration of the newest run.
-    asked: all tasks.
-    not_asked: the reason why there are no rays, if it is the camera.
     """
 
     question: CodeQuestion
@@ -211,8 +146,6 @@ class CodeReport:
     failure: Failure | None = None
     output: str = ""
     seconds: float = 0.0
-    asked: tuple[CheckTask, ...] = BUILTIN
-    not_asked: str = ""
 
     @property
     def halted(self) -> bool:
@@ -221,3 +154,8 @@ class CodeReport:
         if failure is None and self.rays is not None:
             failure = self.rays.result.failure
         return failure is not None and failure.kind in ENDLESS
+
+    @property
+    def untried(self) -> CheckTask | None:
+        """The next task to try with other cases; None if there is none."""
+        return next((task for task in self.tasks if task.name not in self.results), None)

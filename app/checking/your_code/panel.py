@@ -12,9 +12,9 @@ from typing import Literal
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.checking.own_words import returned, signature
-from lucida.app.checking.task_file import builtin_tasks
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.your_code.model import CodeReport
+from lucida.app.checking.your_code.model import RAY, CodeReport
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
 from lucida.app.instruments.stepper.panel import CANVASES
@@ -29,7 +29,7 @@ from lucida.app.ui.theme import Fonts
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import one_line
 
-CodeWish = Literal["", "open", "starter", "run", "stop", "edit", "tasks", "built-in"]
+CodeWish = Literal["", "open", "starter", "run", "stop", "edit"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is
 BESIDE = 2.0  # width / height from which words are next to the pictures
 WORDS_EM = 24.0  # the least width of the words there
@@ -48,9 +48,9 @@ TRUST = (
 )
 
 
-def invitation(tasks: str, fonts: Fonts) -> CodeWish:
-    """Draw the panel when no file is open. tasks: the name of the file of tasks, or ""."""
-    task = next(task for task in builtin_tasks("book") if task.kind == "viewing-ray")
+def invitation(fonts: Fonts) -> CodeWish:
+    """Draw the panel when no file is open."""
+    task = next(task for task in BUILTIN if task.kind == RAY)
     wrapped(INVITATION)
     with lettering(fonts.mono):
         code = SIGNATURE.format(signature(task), arguments(returned(task), task.notation))
@@ -62,7 +62,7 @@ def invitation(tasks: str, fonts: Fonts) -> CodeWish:
     follow(button_width("Open a Python file..."))
     if imgui.button("Open a Python file..."):
         wish = "open"
-    return _tasks(tasks) or wish
+    return wish
 
 
 def head(
@@ -94,7 +94,6 @@ def head(
         if imgui.button(f"{shown}###{name}"):
             wish = name
         tip(tooltip)
-    wish = _tasks(Path(options.tasks).name) or wish
     canvas = options.canvas if runs is None else _canvas(options.canvas)
     if running_s > RUNNING_S:
         text = f"running for {running_s:.0f} s"
@@ -104,23 +103,6 @@ def head(
     return wish, canvas
 
 
-def _tasks(name: str) -> CodeWish:
-    """Draw the source of the tasks. Return the wish to use others."""
-    wish: CodeWish = ""
-    shown = f"Tasks: {one_line(name)}" if name else "Tasks"
-    follow(button_width(shown))
-    if imgui.button(f"{shown}###tasks"):
-        imgui.open_popup("tasks")
-    tip("what is asked for: the built-in tasks, or those of a course")
-    if imgui.begin_popup("tasks"):
-        if imgui.menu_item("built-in tasks", "", not name)[0] and name:
-            wish = "built-in"
-        if imgui.menu_item("a course's file (TOML)...", "", bool(name))[0]:
-            wish = "tasks"
-        imgui.end_popup()
-    return wish
-
-
 def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
     """Draw a button for each task whose function the file has, with its verdict. Return the clicked
     one.
@@ -128,12 +110,11 @@ def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
     clicked = None
     for number, task in enumerate(report.tasks):
         verdict = verdict_of(report, task)
-        shown = "correct" if verdict == "right" else verdict
-        label = f"{task.name}: {shown or '...'}"
+        label = f"{task.name}: {verdict or '...'}"
         if number:
             follow(button_width(label))
         on = task == chosen
-        color = {"right": theme.GOOD, "wrong": theme.ERROR, "failed": theme.ERROR}.get(verdict)
+        color = {"correct": theme.GOOD, "wrong": theme.ERROR, "failed": theme.ERROR}.get(verdict)
         imgui.push_style_color(imgui.Col_.text, color or theme.DIM)
         imgui.push_style_color(imgui.Col_.border, theme.TEXT if on else theme.LINE)
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, theme.px(2 if on else 1))

@@ -1,239 +1,204 @@
 """Runs a student's file in the background: for the window's camera, then for all of its tasks.
 
-The newest question wins. An overtaken one is given up, and its process ended if it takes long. The
-slow work, the tasks, waits until the camera rests.
+The newest question wins. An overtaken run is ended if it takes long. The slow work, the tasks,
+waits until the camera rests.
 """
 
 from __future__ import annotations
 
-import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 
-from lucida.app.checking.checked import TaskResult, checked, failed
+from lucida.app.checking.checked import checked, failed
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.running.file import FileStudent, NotRunnableError
-from lucida.app.checking.task_file import TaskSet
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask, Failure, Limits
 from lucida.app.checking.your_code.model import (
+    RAY,
     CodeContent,
     CodeQuestion,
     CodeReport,
-    asked_of,
     cases_for,
     chosen_of,
-    for_camera,
-    is_of_camera,
+    ray_task_for,
     rays_of,
-    tasks_of,
-    why_not_asked,
 )
-from lucida.app.ui.background import Background
+from lucida.app.ui.background import Background, Outcome
 from lucida.renderer.system.errors import LucidaError, describe
 
-OVERTAKEN_S = 0.3  # what has run for so long, and is not wanted any more, is ended
+LIMITS = Limits(seconds=10.0)
+OVERTAKEN_S = 0.3  # a run of an older question is ended if it takes longer
 REST_S = 0.25  # the camera rests; a file whose run took longer is not run before
 
 
-@dataclass(frozen=True, eq=False)
-class _Opened:
-    """One version of a file and of its tasks."""
+@dataclass(frozen=True)
+class _Work:
+    """A run. question: None if its result is not wanted any more."""
 
-    content: CodeContent
-    student: FileStudent
-    asked: TaskSet
+    question: CodeQuestion | None
+    begun_s: float
 
 
 class CodeRuns:
-    """The runs of a file. Methods are for the window's thread.
+    """The runs of a file, one after another. Methods are for the window's thread.
 
-    wake: called from the thread when there is news.
     make: makes the student for a file.
     report: the newest; None before the first.
-    files: the modules that the file imported, or failed to import, when it was last read.
     """
 
-    def __init__(
-        self, wake: Callable[[], None], make: Callable[[Path, Limits], FileStudent] = FileStudent
-    ) -> None:
-        self._wake, self._make = wake, make
-        self._background: Background[None] = Background("lucida-your-code", wake)
-        self._lock = threading.Lock()  # while a run is ended, no other follows it
-        self._opened: _Opened | None = None
-        self._is_stale = False  # the opened file is to be opened anew
+    def __init__(self, make: Callable[[Path, Limits], FileStudent] = FileStudent) -> None:
+        self._make = make
+        self._background: Background[CodeReport] = Background("lucida-your-code")
+        self._content: CodeContent | None = None  # of the student
+        self._student: FileStudent | None = None
+        self._work: _Work | None = None
         self._newest: CodeQuestion | None = None
-        self._asked = threading.Event()  # something newer, or the end
-        self._run: tuple[CodeQuestion, float] | None = None  # what for, since when
+        self._since_s = 0.0  # of the newest question
         self._stopped = False  # by the user
         self.report: CodeReport | None = None
-        self.files: tuple[str, ...] = ()
 
-    def follow(self, question: CodeQuestion) -> None:
-        """Ask a question. Call once a frame.
-
-        A file that has run endlessly is not run again for another camera, but only for something
-        that the user asks for here: another version, task, or size.
-        """
-        report = self.report
-        if question == self._newest:
-            return
-        if report is not None and report.halted and question.differs_in_camera(report.question):
-            return
-        self._newest = question
-        self._asked.set()
-        self._background.submit(lambda: self._answer(question))
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The modules that the file imported, or failed to import, when it was last read."""
+        return self._student.files if self._student is not None else ()
 
     @property
     def busy(self) -> bool:
-        return self._background.busy
-
-    def poll(self) -> None:
-        """Notice the end of the work, and end a run that was overtaken or stopped. Call once a
-        frame.
-        """
-        self._background.poll()
-        with self._lock:
-            if self._run is None or self._opened is None:
-                return
-            is_late = self.running_s > OVERTAKEN_S and not self._is_wanted(self._run[0])
-            if self._stopped or is_late:
-                self._opened.student.stop()
+        return self._work is not None or self._wanted() is not None
 
     @property
     def running_s(self) -> float:
         """The time that the file has been running, in seconds; 0 if it is not."""
-        run = self._run
-        return time.monotonic() - run[1] if run is not None else 0.0
+        return time.monotonic() - self._work.begun_s if self._work is not None else 0.0
+
+    def follow(self, question: CodeQuestion) -> None:
+        """Ask a question, take the answer of the run that has ended, and begin the next one. Call
+        once a frame.
+
+        A file that has run endlessly is not run again for another camera, but only for something
+        that the user asks for here: another version, task, or size.
+        """
+        self.poll()
+        if question != self._newest:
+            self._newest, self._since_s = question, time.monotonic()
+        work = self._work
+        if work is not None:
+            is_late = work.question != question and self.running_s > OVERTAKEN_S
+            if is_late:
+                self._work = replace(work, question=None)
+            if self._student is not None and (self._stopped or is_late):
+                self._student.stop()
+        elif (wanted := self._wanted()) is not None and self._may_begin():
+            self._begin(question, wanted)
+
+    def poll(self) -> None:
+        """Take the answer of the run that has ended."""
+        outcome = self._background.poll()
+        if outcome is None or self._work is None:
+            return
+        work, self._work = self._work, None
+        if work.question is not None:
+            report = _report(work.question, outcome)
+            seconds = report.seconds or time.monotonic() - work.begun_s
+            self.report = replace(report, seconds=seconds)
 
     def stop(self) -> None:
-        """End the current run, at the next poll(). Its report says so."""
+        """End the current run. Its report says so, and nothing else is tried."""
         self._stopped = True
 
     def forget(self) -> None:
         """Discard all results and end the process, because there is no file any more, or to start
         over.
         """
-        with self._lock:
-            self._newest = self.report = None
-            self._is_stale = True
-            if self._opened is not None:
-                self._opened.student.stop()
-        self._asked.set()
+        self._newest = self.report = self._content = None
+        if self._work is not None:
+            self._work = replace(self._work, question=None)
+        if self._student is not None:
+            self._student.stop()
 
     def close(self) -> None:
         """End the file's process."""
         self.forget()
         self._background.close()
+        if self._student is not None:
+            self._student.close()
 
-    # On the thread.
+    def _wanted(self) -> Callable[[FileStudent], CodeReport] | None:
+        """Return the next run; None if everything that is asked for is known."""
+        question, report = self._newest, self.report
+        if question is None:
+            return None
+        if report is not None and report.question == question:
+            task = None if self._stopped else report.untried
+            return None if task is None else partial(_tried, report=report, task=task)
+        if report is not None and report.halted and question.differs_in_camera(report.question):
+            return None
+        return partial(_answered, question=question, before=report)
 
-    @contextmanager
-    def _running(self, question: CodeQuestion) -> Iterator[None]:
-        """Note that the process works on a question."""
-        self._run = question, time.monotonic()
-        try:
-            yield
-        finally:
-            with self._lock:
-                self._run = None
+    def _may_begin(self) -> bool:
+        """Return True if the camera rests, or the file is quick enough to follow it."""
+        report, question = self.report, self._newest
+        assert question is not None
+        is_quick = report is None or report.seconds < REST_S
+        is_other = report is None or report.question != question
+        return (is_quick and is_other) or time.monotonic() - self._since_s >= REST_S
 
-    def _is_wanted(self, question: CodeQuestion) -> bool:
-        return question is self._newest
-
-    def _rests(self, question: CodeQuestion) -> bool:
-        """Wait until the camera rests. Return True if the question is still wanted then."""
-        self._asked.clear()
-        if self._is_wanted(question):
-            self._asked.wait(REST_S)
-        return self._is_wanted(question)
-
-    def _publish(self, report: CodeReport) -> None:
-        with self._lock:
-            if not self._is_wanted(report.question):
-                return
-            self.report = report
-        self._wake()
-
-    def _open(self, content: CodeContent) -> _Opened:
-        """Return the opened file, opened anew for another version. Raises LucidaError."""
-        opened = self._opened
-        if opened is not None and opened.content == content and not self._is_stale:
-            return opened
-        if opened is not None:
-            opened.student.close()
-        self._is_stale = False
-        asked = asked_of(content.tasks)
-        self._opened = _Opened(content, self._make(Path(content.path), asked.limits), asked)
-        return self._opened
-
-    def _answer(self, question: CodeQuestion) -> None:
-        before = self.report
-        if before is not None and before.question.content != question.content:
-            before = None
-        is_slow = before is not None and before.seconds > REST_S
-        if is_slow and not self._rests(question):
-            return
-        if not self._is_wanted(question):
-            return
-        self._stopped = False
-        begin = time.monotonic()
-        try:
-            with self._running(question):
-                report = self._report(question, before)
-            self._publish(replace(report, seconds=time.monotonic() - begin))
-            self._check(question)
-        except NotRunnableError as error:
-            self._publish(CodeReport(question, failure=error.failure, output=error.output))
-        except LucidaError as error:
-            self._publish(CodeReport(question, failure=Failure("missing", describe(error))))
-        except Exception as error:
-            self._publish(CodeReport(question, failure=Failure("ended", describe(error))))
-
-    def _report(self, question: CodeQuestion, before: CodeReport | None) -> CodeReport:
-        """Return the file's answer for the camera. Raises LucidaError."""
-        opened = self._open(question.content)
-        student, asked = opened.student, opened.asked.tasks
-        try:
-            functions = student.functions()
-        finally:
-            self.files = student.files
-        tasks = tuple(tasks_of(functions, asked))
-        chosen = chosen_of(tasks, question.task)
-        results = before.results if before is not None else {}
-        report = CodeReport(question, tasks, chosen, results=results, asked=asked)
-        if chosen is None or not is_of_camera(chosen):
-            return report
-        camera, size = question.camera, question.size
-        task = for_camera(chosen, camera, asked)
-        if problem := why_not_asked(task, camera, size):
-            return replace(report, not_asked=problem)
-        cases = cases_for(task, camera, size)
-        rays = rays_of(task, size, cases, student.call(KINDS[task.kind].calls(task, cases)))
-        return replace(report, rays=rays, output=rays.result.output)
-
-    def _check(self, question: CodeQuestion) -> None:
-        """Check the tasks that have not been tried."""
-        opened, report = self._opened, self.report
-        if opened is None or report is None or not self._rests(question):
-            return
-        results: dict[str, TaskResult] = dict(report.results)
-        for task in report.tasks:
-            if self._stopped or not self._is_wanted(question):
-                return
-            if task.name not in results:
-                with self._running(question):
-                    results[task.name] = _tried(opened.student, task, report)
-                report = replace(report, results=dict(results))
-                self._publish(report)  # unless it was ended on purpose: nobody wants it then
+    def _begin(self, question: CodeQuestion, run: Callable[[FileStudent], CodeReport]) -> None:
+        if self._student is None or self._content != question.content:
+            if self._student is not None:
+                self._student.close()
+            self._student = self._make(Path(question.content.path), LIMITS)
+            self._content = question.content
+        if self.report is None or self.report.question != question:
+            self._stopped = False
+        student, self._work = self._student, _Work(question, time.monotonic())
+        self._background.submit(lambda: run(student))
 
 
-def _tried(student: FileStudent, task: CheckTask, report: CodeReport) -> TaskResult:
-    """Return the result of a task. It is known already if the function runs endlessly."""
+def _report(question: CodeQuestion, outcome: Outcome[CodeReport]) -> CodeReport:
+    """Return the report on a run, also if it failed."""
+    match outcome.error:
+        case None:
+            assert outcome.value is not None
+            return outcome.value
+        case NotRunnableError(failure=failure, output=output):
+            return CodeReport(question, failure=failure, output=output)
+        case LucidaError() as error:
+            return CodeReport(question, failure=Failure("missing", describe(error)))
+        case error:
+            return CodeReport(question, failure=Failure("ended", describe(error)))
+
+
+def _answered(
+    student: FileStudent, question: CodeQuestion, before: CodeReport | None
+) -> CodeReport:
+    """Return the file's answer for the camera. Runs on a thread. Raises LucidaError."""
+    functions = student.functions()
+    tasks = tuple(task for task in BUILTIN if task.function in functions)
+    chosen = chosen_of(tasks, question.task)
+    is_known = before is not None and before.question.content == question.content
+    results = before.results if before is not None and is_known else {}
+    report = CodeReport(question, tasks, chosen, results=results)
+    if chosen is None or chosen.kind != RAY:
+        return report
+    task = ray_task_for(question.camera)
+    cases = cases_for(task, question.camera, question.size)
+    run = student.call(KINDS[RAY].calls(task, cases))
+    return replace(report, rays=rays_of(task, question.size, cases, run), output=run.output)
+
+
+def _tried(student: FileStudent, report: CodeReport, task: CheckTask) -> CodeReport:
+    """Return the report with the result of a task, which is known if the function runs endlessly.
+    Runs on a thread.
+    """
     rays = report.rays
     if rays is not None and report.halted and rays.task.function == task.function:
         assert rays.result.failure is not None
-        return failed(task, rays.result.failure)
-    return checked(student, task)
+        result = failed(task, rays.result.failure)
+    else:
+        result = checked(student, task)
+    return replace(report, results={**report.results, task.name: result})

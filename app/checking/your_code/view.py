@@ -6,54 +6,93 @@ for the questions, panel.py for the layout, code_pictures.py for the pictures.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import moderngl
+import numpy as np
 from imgui_bundle import imgui
 
 from lucida.app.checking.own_words import starter
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.your_code import panel
 from lucida.app.checking.your_code.code_pictures import CodePictures, PicturesShown, marked_pixel
-from lucida.app.checking.your_code.following import FileFollower, open_in_editor
-from lucida.app.checking.your_code.model import RAY, CodeContent, CodeQuestion, CodeReport, asked_of
-from lucida.app.checking.your_code.outside_items import outside_items
+from lucida.app.checking.your_code.editor import open_in_editor
+from lucida.app.checking.your_code.model import (
+    RAY,
+    CodeContent,
+    CodeQuestion,
+    CodeRays,
+    CodeReport,
+)
 from lucida.app.checking.your_code.panel import CodeWish
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.app.checking.your_code.words import ToldLine, told_of
+from lucida.app.instruments.outside import answers
+from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.second_camera import GivenRay, corner_rays, second_camera
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.options.shared import Pixel
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui import layout, theme
-from lucida.app.ui.background import Background
+from lucida.app.ui.action import Action
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.messages import wrapped
+from lucida.app.ui.watching import FilesWatch
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import one_line
+from lucida.renderer.system.file_dependencies import stamp
 from lucida.renderer.system.memo import Memo
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
+MENU = "File/Your code"
 
 
-class YourCodeView(Instrument):
+def _ask(wish: CodeWish, host: Host) -> None:
+    host.show_in(YOUR_CODE, layout.LOOPS)
+    host.view(YourCode).ask(wish)
+
+
+def _has_file(host: Host) -> bool:
+    return bool(host.state.options.your_code.file)
+
+
+class YourCode(Instrument):
     """The view "Your code"."""
 
     name = YOUR_CODE
     title = "Your code"
+    actions = (
+        Action(MENU, "Open Python code...", lambda host: _ask("open", host)),
+        Action(MENU, "Write code to begin with...", lambda host: _ask("starter", host)),
+        Action(
+            MENU, "Run your code", lambda host: _ask("run", host), can=_has_file, separated=True
+        ),
+        Action(MENU, "Edit your code", lambda host: _ask("edit", host), can=_has_file),
+    )
+    synonyms = {
+        "Your code": "python program student check homework viewing_ray",
+        "Open Python code...": "student program .py your code",
+        "Write code to begin with...": "starter template python",
+        "Run your code": "check python again reload",
+    }
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)
-        self.runs = CodeRuns(lambda: Background.wake_window())
-        self._follower: FileFollower | None = None
+        self.runs = CodeRuns()
         self._pictures: PicturesShown | None = None
+        self._watch = FilesWatch({})
+        self._watched: tuple[str, ...] = ()  # the file, then its modules
+        self._version = 0  # of the file and its modules
         self._agreed: set[str] = set()  # files that the user has opened in this window
         self._written: list[str] = []  # files to begin with that have been written
-        self._items = Memo(outside_items)
-        self._seen = False
+        self._items = Memo(_outside_items)
+        self.seen = False
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
@@ -69,21 +108,14 @@ class YourCodeView(Instrument):
         """The pictures on screen; None for none."""
         return self._pictures.pictures if self._pictures is not None else None
 
-    def open(self, window: Host, path: str) -> None:
+    def open(self, host: Host, path: str) -> None:
         """Open a file for the user. It is run now, and whenever it is saved."""
         self._agreed.add(path)
-        options = replace(window.state.options.your_code, file=stored(path), task="")
-        if window.state.options.your_code.file != options.file:
-            window.change(window.state.with_options(options))
-        elif self._follower is not None:
-            self._follower.again()
-        window.show_in(YOUR_CODE, layout.LOOPS)
-
-    def open_tasks(self, window: Host, path: str) -> None:
-        """Open a course's file of tasks for the user; "" for the built-in ones."""
-        asked = replace(window.state.options.your_code, tasks=stored(path), task="")
-        window.change(window.state.with_options(asked))
-        window.show_in(YOUR_CODE, layout.LOOPS)
+        self._version += 1
+        options = replace(host.state.options.your_code, file=stored(path), task="")
+        if host.state.options.your_code.file != options.file:
+            host.change(host.state.with_options(options))
+        host.show_in(YOUR_CODE, layout.LOOPS)
 
     def ask(self, wish: CodeWish) -> None:
         """Ask for what a button would do, in the next frame."""
@@ -91,28 +123,24 @@ class YourCodeView(Instrument):
 
     @property
     def settled(self) -> bool:
-        if not self._seen or self._pictures is None:
+        if not self.seen or self._pictures is None:
             return True
         return not (self.runs.busy or self._pictures.busy)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._follower = FileFollower(host.animate, lambda: self.runs.busy)
         self._pictures = PicturesShown(host, context)
 
     def end(self) -> None:
-        if self._follower is not None:
-            self._follower.close()
         self.runs.close()
         if self._pictures is not None:
             self._pictures.close()
 
     def unseen(self, host: Host) -> None:
         self.runs.poll()
-        if not self._seen:
+        if not self.seen:
             return
-        assert self._follower is not None and self._pictures is not None
-        self._seen = False
-        self._follower.rest()
+        assert self._pictures is not None
+        self.seen = False
         if self.runs.busy:
             self.runs.forget()  # nothing runs while hidden
         self._pictures.forget()
@@ -121,54 +149,61 @@ class YourCodeView(Instrument):
     def draw(self, host: Host) -> None:
         assert self._pictures is not None
         self._pictures.begin_frame()
-        self._seen = True
+        self.seen = True
         host.renderers.need_size(host.state.images)
         path = restored(host.state.options.your_code.file)
         if self._written:
             self._open_written(host)
-        wish: CodeWish
-        if not path:
-            self._rest()
-            tasks = restored(host.state.options.your_code.tasks)
-            wish = panel.invitation(Path(tasks).name, host.fonts)
-        elif not self._may_run(host, path):
-            self._rest()
-            wish = self._untrusted(host, path)
-        else:
+        if path and self._may_run(host, path):
             wish = self._of_file(host, path)
+        else:
+            self._rest()
+            wish = self._untrusted(host, path) if path else panel.invitation(host.fonts)
         self._grant(host, self._asked or wish, path)
         self._asked = ""
 
     def _rest(self) -> None:
         """Run nothing, and show nothing of earlier runs."""
-        assert self._follower is not None and self._pictures is not None
-        self._follower.forget()
+        assert self._pictures is not None
         self._pictures.forget()
         self.runs.poll()
         if self.runs.report is not None:
             self.runs.forget()
-        self.told = []
+        self.told, self._watched = [], ()
         self._outside.show(YOUR_CODE, ())
 
     def _may_run(self, host: Host, path: str) -> bool:
         """Return True if the user has opened the file, in this window or earlier: it is a recent
         file then.
         """
-        if path in self._agreed:
-            return True
-        return Path(path) in host.files.recent.entries
+        return path in self._agreed or Path(path) in host.files.recent.entries
+
+    def _saved_version(self, host: Host, path: str) -> int:
+        """Return the number of the file's version: another one after it, or a module that it
+        needs, was saved.
+        """
+        watched = path, *self.runs.files
+        if watched[0] not in self._watched[:1]:
+            self._watch, self._version = FilesWatch({}), self._version + 1
+        if watched != self._watched:
+            self._watched = watched
+            self._watch.follow({Path(name): stamp(Path(name)) for name in watched})
+        self._version += self._watch.changed(time.monotonic())
+        if self._watch.waiting:
+            host.animate()
+        return self._version
 
     def _of_file(self, host: Host, path: str) -> CodeWish:
-        assert self._follower is not None and self._pictures is not None
+        assert self._pictures is not None
         runs, options = self.runs, host.state.options.your_code
-        tasks = restored(options.tasks)
-        self._follower.follow(tuple(one for one in (path, tasks) if one), runs.files)
-        runs.poll()
+        version = self._saved_version(host, path)
+        content = CodeContent(path, version)
         camera = host.state.view.for_size(options.canvas)
-        content = CodeContent(path, tasks, self._follower.version)
         runs.follow(CodeQuestion(content, options.task, camera, options.canvas))
+        if runs.busy:
+            host.animate()
         report = runs.report
-        if report is not None and not report.question.content.is_of_files(content):
+        if report is not None and report.question.content.path != path:
             report = None
         wish, canvas = panel.head(Path(path), options, runs, host.fonts)
         if canvas != options.canvas:
@@ -193,10 +228,8 @@ class YourCodeView(Instrument):
         self._show_outside(host, report, marked)
         return wish
 
-    # In the outside view.
-
     def _show_outside(self, host: Host, report: CodeReport, marked: Pixel | None) -> None:
-        """Show the student's camera if it is wrong, and the marked pixel's rays."""
+        """Show the student's camera in the outside view if it is wrong, and a pixel's rays."""
         rays = report.rays
         if rays is None or not rays.wrong.any():
             self._outside.show(YOUR_CODE, ())
@@ -227,39 +260,28 @@ class YourCodeView(Instrument):
         host.animate()
 
     def _grant(self, host: Host, wish: CodeWish, path: str) -> None:
-        assert self._follower is not None
         if wish == "open":
             host.files.open_code_dialog()
         elif wish == "starter":
-            tasks = host.state.options.your_code.tasks
             host.files.save_as_dialog(
                 "Write a file to begin with",
                 STARTER,
                 ("Python files", ".py"),
-                lambda path: self.write_starter(path, tasks),
+                self.write_starter,
             )
         elif wish == "edit" and path and not open_in_editor(path):
             host.files.message = f"No editor was found. The file is {one_line(path)}."
         elif wish == "run" and path and self._may_run(host, path):
             self.runs.forget()
-            self._follower.again()
             host.animate()
         elif wish == "stop":
             self.runs.stop()
-        elif wish == "tasks":
-            host.files.open_tasks_dialog()
-        elif wish == "built-in":
-            host.edit(replace(host.options.your_code, tasks="", task=""))
 
-    def write_starter(self, path: str, tasks: str = "") -> str:
-        """Write a starter file, on a thread. Raises LucidaError.
-
-        tasks: those whose functions it should have, as in the options.
-        """
-        asked = asked_of(restored(tasks)).tasks
-        wanted = asked if tasks else [task for task in asked if task.kind == RAY]
+    def write_starter(self, path: str) -> str:
+        """Write a starter file, on a thread. Raises LucidaError."""
         with atomic_write(Path(path)) as file:
-            file.write(starter(wanted).encode())
+            tasks = [task for task in BUILTIN if task.kind == RAY]
+            file.write(starter(tasks).encode())
         self._written.append(path)
         return one_line(f"Wrote {path}.")
 
@@ -267,3 +289,20 @@ class YourCodeView(Instrument):
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
         host.edit(replace(host.options.your_code, file=stored(path), task=""))
+
+
+def _outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) -> list[Item]:
+    """Return a wrong answer's drawing for the outside view: the student's camera, and the rays of
+    the marked pixel, or else of the first wrong one.
+
+    end: the ray parameter at which the scene ends. first: the name of the first pixel.
+    """
+    camera = rays.camera
+    middle = (rays.size[1] - 1) / 2, (rays.size[0] - 1) / 2
+    reach = end * float(np.linalg.norm(camera.ray(*middle, rays.size).direction))
+    corners = corner_rays(rays.given[..., 0, :], rays.given[..., 1, :])
+    items = second_camera(*corners, reach, "yours", first)
+    pixel = marked if marked is not None else tuple(np.argwhere(rays.wrong)[0].tolist())
+    if rays.came[pixel]:
+        items += answers.ray(GivenRay(*rays.given[pixel]), GivenRay(*rays.right[pixel]), reach)
+    return items

@@ -11,11 +11,11 @@ import numpy as np
 
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds.kind import text_of
-from lucida.app.checking.reports import told
+from lucida.app.checking.reports import VERDICTS
+from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.your_code.model import CodeRays, CodeReport
 from lucida.app.state.options.shared import Pixel
-from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import visible
 
 ToldRole = Literal["good", "bad", "text", "code", "dim"]
@@ -50,13 +50,13 @@ def _is_marks(line: ToldLine) -> bool:
 
 
 def verdict_of(report: CodeReport, task: CheckTask) -> str:
-    """Return right, wrong or failed; "empty" if the function is still a starter, "tried" if the
-    course withholds the verdict, or "" while it is unknown.
+    """Return correct, wrong or failed; "empty" if the function is still a starter, or "" while it
+    is unknown.
     """
     result = report.results.get(task.name)
     if result is None:
         return ""
-    return "empty" if _is_empty(result) else told(result).verdict or "tried"
+    return "empty" if _is_empty(result) else VERDICTS.get(result.status, result.status)
 
 
 def _is_empty(result: TaskResult) -> bool:
@@ -73,15 +73,13 @@ def _of_file(report: CodeReport) -> Iterator[ToldLine]:
         if report.halted:
             yield ToldLine("dim", f"{HALTED}: save the file, or press Run.")
     elif report.chosen is None:
-        names = ", ".join(dict.fromkeys(task.function for task in report.asked))
+        names = ", ".join(dict.fromkeys(task.function for task in BUILTIN))
         yield ToldLine("bad", f"The file has none of the functions that are asked for: {names}.")
 
 
 def _of_task(report: CodeReport, pixel: Pixel | None) -> Iterator[ToldLine]:
     chosen, rays = report.chosen, report.rays
     assert chosen is not None
-    if report.not_asked:
-        yield ToldLine("dim", report.not_asked)
     if rays is not None:
         yield from _of_rays(report, rays)
         if pixel is not None and bool(rays.came[pixel]):
@@ -120,29 +118,25 @@ def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
     if _is_empty(result):
         yield ToldLine("text", f"{result.task.function} returns nothing yet. {result.task.text}")
         return
-    for number, line in enumerate(told(result).lines):
+    for number, line in enumerate(result.lines):
         yield ToldLine("code" if number else "bad", line)
 
 
 def _of_pixel(rays: CodeRays, pixel: Pixel) -> Iterator[ToldLine]:
-    indexing = Indexing(rays.task.conventions.base)
-    yield ToldLine("dim", f"pixel {indexing.text(pixel)}, {indexing.told}, of the pictures:")
+    yield ToldLine("dim", f"pixel {pixel}, from 0, of the pictures:")
     for name, image in (("yours  ", rays.given), ("correct", rays.right)):
         origin, direction = map(text_of, np.round(image[pixel], 12).tolist())
         yield ToldLine("code", f"{name}  {origin} + t {direction}")
 
 
 def _of_result(result: TaskResult) -> Iterator[ToldLine]:
-    say, name = told(result), result.task.name
-    if say.verdict is None:
-        yield ToldLine("text", f"{name} was tried. The course tells no more of it.")
-    elif result.failure is not None:
+    if result.failure is not None:
         yield from _of_failure(result)
     elif result.status == "right":
-        yield ToldLine("good", f"{name}: correct in all of {result.cases} cases.")
+        yield ToldLine("good", f"{result.task.name}: correct in all of {result.cases} cases.")
     else:
         yield ToldLine("bad", f"{result.task.function} is wrong.")
-        yield from (ToldLine("text", line) for line in say.lines)
+        yield from (ToldLine("text", line) for line in result.lines)
 
 
 def _of_output(report: CodeReport) -> Iterator[ToldLine]:

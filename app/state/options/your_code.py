@@ -1,4 +1,4 @@
-"""The options of the view "Your code": the file, the tasks, and the size of the pictures."""
+"""The options of the view "Your code": the file, the task, and the size of the pictures."""
 
 from __future__ import annotations
 
@@ -14,12 +14,10 @@ class YourCodeOptions(OptionPart):
 
     file: an absolute path, as stored() of state/paths.py writes it, "" for none; in a lecture, a
     file next to the lecture's own.
-    tasks: the path of a course's tasks in the same form, "" for the built-in ones.
     task: the name of the visible one; "" for the first whose function the file has.
     canvas: (width, height) of the pictures.
     """
 
     file: Annotated[str, Beside((".py",))] = ""
-    tasks: Annotated[str, Beside((".toml",))] = ""
     task: Annotated[str, AtMost(64)] = ""
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (32, 24)

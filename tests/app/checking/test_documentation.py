@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
@@ -14,7 +15,7 @@ from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.own_words import signature
 from lucida.app.checking.task_file import BUILTIN, load_tasks
 from lucida.app.checking.task_schema import TaskFile, TaskTable
-from lucida.app.checking.tasks import CAMERA_KINDS, FEEDBACK
+from lucida.app.checking.tasks import CAMERA_KINDS, Feedback
 
 PAGE = (Path(__file__).parents[3] / "docs" / "checking.md").read_text("utf-8")
 
@@ -29,7 +30,7 @@ def test_words_and_fields_are_named(names):
 
 
 def test_kinds_and_choices_are_named():
-    for name in (*KINDS, *CAMERA_KINDS, *FEEDBACK):
+    for name in (*KINDS, *CAMERA_KINDS, *get_args(Feedback)):
         assert re.search(rf"\b{name}\b", PAGE), name
     for field in TaskFile.__struct_fields__:
         assert re.search(rf"^    \[*{field}\b", PAGE, re.MULTILINE), field

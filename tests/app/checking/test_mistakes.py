@@ -11,7 +11,7 @@ from asked_rays import made_cases
 
 import lucida.app.lecture.lectures
 from lucida.app.checking.mistakes.program import Mistake, Program
-from lucida.app.checking.mistakes.programs import programs
+from lucida.app.checking.mistakes.programs import program_of
 from lucida.app.checking.mistakes.rays import (
     WORDS,
     RayTask,
@@ -25,7 +25,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
 
 PROJECTIONS = ("perspective", "parallel")
-(BASIS,) = programs(next(task for task in BUILTIN if task.name == "basis"))
+BASIS = program_of(next(task for task in BUILTIN if task.name == "basis"))
 CAMERA_PARTS = {"eye", "distance", "left", "right", "bottom", "top"}
 FRAME = {"u", "v", "w"}
 PIXEL = {"i", "j", "width", "height"}

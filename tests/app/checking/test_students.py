@@ -10,7 +10,6 @@ from pathlib import Path
 import pytest
 
 from lucida.app.checking.checked import TaskResult, check
-from lucida.app.checking.reports import told
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.task_file import BUILTIN
 
@@ -251,9 +250,8 @@ def wrong(tmp_path_factory: pytest.TempPathFactory) -> Iterator[FileStudent]:
 
 
 def assert_found(result: TaskResult, says: str, known: bool | None) -> None:
-    found = told(result)
-    assert result.status == "wrong" and result.diagnosis is not None, found.lines
-    assert says in " ".join(result.diagnosis.sentences).replace("`", ""), found.lines
+    assert result.status == "wrong" and result.diagnosis is not None, result.lines
+    assert says in " ".join(result.diagnosis.sentences).replace("`", ""), result.lines
     assert known is None or bool(result.diagnosis.candidates) == known
 
 
@@ -264,7 +262,7 @@ def test_right_programs_are_right(name: str) -> None:
         results = list(check(student, tasks))
     assert results and len(STUDENTS) == COUNTS
     for result in results:
-        assert result.status == "right", (result.task.name, told(result).lines)
+        assert result.status == "right", (result.task.name, result.lines)
 
 
 @pytest.mark.parametrize("name", WRONG_RAYS)
@@ -294,9 +292,9 @@ def test_wrong_programs(tmp_path: Path, name: str) -> None:
         results = list(check(student, [TASKS[task] for task in expected]))
     for result, says in zip(results, expected.values(), strict=True):
         if says is None:
-            assert result.status == "right", told(result).lines
+            assert result.status == "right", result.lines
         elif says.startswith("failed: "):
             assert result.status == "failed"
-            assert says.removeprefix("failed: ") in told(result).lines[0]
+            assert says.removeprefix("failed: ") in result.lines[0]
         else:
             assert_found(result, says, bool(says))

@@ -14,7 +14,6 @@ import pytest
 
 from lucida.app.checking.checked import check
 from lucida.app.checking.courses import course_names, task_path
-from lucida.app.checking.reports import told
 from lucida.app.checking.running.file import FileStudent
 from lucida.app.checking.task_file import load_tasks
 from lucida.renderer.system.errors import LucidaError
@@ -58,7 +57,7 @@ def test_right_is_right_and_wrong_is_named(course: str) -> None:
     with FileStudent(WRITTEN / f"{course}.py") as student:
         results = list(check(student, asked))
     for (name, _, says), result in zip(written, results, strict=True):
-        text = "\n".join(told(result).lines)
+        text = "\n".join(result.lines)
         assert result.status == name[:5], f"{name}: {result.status}: {text}"
         assert says in text.replace("`", ""), f"{name}: {says!r} is not in: {text}"
 

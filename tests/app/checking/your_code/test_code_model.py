@@ -16,8 +16,7 @@ from lucida.app.checking.your_code.model import (
     CodeRays,
     canvas_pixel,
     cases_for,
-    for_camera,
-    is_of_camera,
+    ray_task_for,
     rays_of,
 )
 from lucida.renderer.camera.camera import Camera
@@ -29,7 +28,7 @@ SKEWED = replace(CAMERA, u=(0.8, 0.1, 0.2), viewport=(-0.2, 0.7, -0.4, 0.3))
 
 
 def task(kind: str, projection: str = "perspective"):
-    return next(one for one in BUILTIN if one.kind == kind and projection in one.projections)
+    return next(one for one in BUILTIN if one.kind == kind and projection == one.projection)
 
 
 def answered(camera: Camera, answer) -> CodeRays:
@@ -69,9 +68,8 @@ def test_wrong_rays_are_marked_where_they_are():
 def test_the_task_follows_the_projection():
     perspective, parallel = task(RAY), task(RAY, "parallel")
     assert perspective != parallel
-    assert for_camera(perspective, PARALLEL) == parallel
-    assert for_camera(parallel, CAMERA) == perspective
-    assert is_of_camera(perspective) and not is_of_camera(task("hit-sphere"))
+    assert ray_task_for(PARALLEL) == parallel
+    assert ray_task_for(CAMERA) == perspective
 
 
 def test_pixels_pass_from_the_canvas_to_the_image_and_back():

@@ -76,7 +76,7 @@ class Desk:
     def __init__(self) -> None:
         self.made: list[FakeStudent] = []
         self.prepare = lambda student: None
-        self.runs = CodeRuns(lambda: None, self._make)
+        self.runs = CodeRuns(self._make)
 
     def _make(self, path: Path, limits: Limits) -> FakeStudent:
         student = FakeStudent(path)
@@ -85,13 +85,10 @@ class Desk:
         return student
 
     def told(self, question: CodeQuestion):
-        """The last report of a question."""
-        self.runs.follow(question)
-        return self.settled()
+        """Return the last report of a question."""
 
-    def settled(self):
         def is_done() -> bool:
-            self.runs.poll()
+            self.runs.follow(question)
             return not self.runs.busy
 
         wait_for(is_done)
@@ -150,12 +147,10 @@ def test_an_overtaken_run_is_ended_and_the_newest_answered(desk, monkeypatch):
     desk.runs.follow(QUESTION)
     wait_for(lambda: desk.made and desk.made[0].hanging)
     assert desk.runs.running_s > 0
-    desk.runs.poll()
+    desk.runs.follow(QUESTION)
     assert not desk.made[0].ended.is_set()  # it is still wanted
-    desk.runs.follow(OTHER)
-    wait_for(lambda: desk.runs.poll() or desk.made[0].ended.is_set())
-    report = desk.settled()
-    assert report.question == OTHER
+    report = desk.told(OTHER)
+    assert desk.made[0].runs[1] and report.question == OTHER
     assert report.rays.result.status == "right"
     assert desk.runs.running_s == 0
 
@@ -165,8 +160,7 @@ def test_what_was_stopped_is_not_run_again_by_itself(desk):
     desk.runs.follow(QUESTION)
     wait_for(lambda: desk.made and desk.made[0].hanging)
     desk.runs.stop()
-    desk.runs.poll()
-    report = desk.settled()
+    report = desk.told(QUESTION)
     assert report.rays.result.failure.text == "rays.py: was stopped"
     assert report.halted
     assert not report.results  # nor the tasks
@@ -237,28 +231,24 @@ def test_forgetting_ends_the_process(desk):
     desk.told(QUESTION)
     desk.runs.forget()
     assert desk.runs.report is None
-    assert desk.made[0].ended.is_set()
+    assert desk.made[0].ended.is_set() and not desk.runs.busy
     assert desk.told(QUESTION).rays.result.status == "right"
     assert desk.made[0].closed and len(desk.made) == 2
     assert len(desk.made[1].runs) == 3  # nothing of before is taken for an answer
 
 
 def test_a_slow_file_waits_until_the_camera_rests(desk, monkeypatch):
-    monkeypatch.setattr(runs_module, "REST_S", -1.0)  # each run is slow, no wait is long
-    waited = []
-    # How long it rests before it asks on is seen nowhere else.
-    monkeypatch.setattr(desk.runs._asked, "wait", lambda seconds: waited.append(seconds))
+    monkeypatch.setattr(runs_module, "REST_S", 0.0)  # each run is slow
     desk.told(QUESTION)
-    assert len(waited) == 1  # before the tasks
-    desk.told(OTHER)
-    assert len(waited) == 3
+    monkeypatch.setattr(runs_module, "REST_S", 10_000.0)
+    desk.runs.report = replace(desk.runs.report, seconds=20_000.0)
+    desk.runs.follow(OTHER)
+    assert desk.runs.busy and desk.runs.running_s == 0
+    monkeypatch.setattr(runs_module, "REST_S", 0.0)
+    assert desk.told(OTHER).question == OTHER
 
 
 def test_wrong_rays_are_told_first_then_why(desk):
-    seen = []
-    wake = desk.runs._wake  # each report that a frame could see
-    desk.runs._wake = lambda: (seen.append(desk.runs.report), wake())
-
     def mirrored(student):
         right = student.answer
         student.answer = lambda call: [
@@ -267,8 +257,16 @@ def test_wrong_rays_are_told_first_then_why(desk):
         ]
 
     desk.prepare = mirrored
-    report = desk.told(QUESTION)
-    assert seen[0].rays.result.status == "wrong"
-    assert not seen[0].results
-    assert report.results["viewing-ray"].diagnosis is not None
-    assert report.rays is seen[0].rays  # the pictures stay
+    seen = []
+
+    def is_done():
+        desk.runs.follow(QUESTION)
+        seen.append(desk.runs.report)
+        return not desk.runs.busy
+
+    wait_for(is_done)
+    first = next(report for report in seen if report is not None)
+    assert first.rays.result.status == "wrong"
+    assert not first.results
+    assert seen[-1].results["viewing-ray"].diagnosis is not None
+    assert seen[-1].rays is first.rays  # the pictures stay

@@ -15,7 +15,7 @@ from lucida.app.lecture.reading import load_lecture
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored, stored
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
-from lucida.app.window.opening import OpenedCode, OpenedScene, OpenedTasks, open_sources
+from lucida.app.window.opening import OpenedCode, OpenedScene, open_sources
 from lucida.renderer.files import load_scene
 from lucida.renderer.files.outside import OutsideError
 from lucida.renderer.system.errors import LucidaError
@@ -95,32 +95,8 @@ def test_a_session_keeps_the_file_whatever_its_name(tmp_path: Path):
     assert kept == replace(state.options.your_code)
 
 
-def tasks_in(folder: Path, text: str = 'lucida = 1\n[[tasks]]\nkind = "basis"\n') -> Path:
-    file = folder / "hw2.toml"
-    file.write_text(text)
-    return file
-
-
-def test_a_file_of_tasks_is_known_by_what_is_in_it(tmp_path: Path):
-    file = tasks_in(tmp_path)
-    opened = open_sources([str(file)], dropped=True)
-    assert opened.things == (OpenedTasks(str(file)),)
-    with pytest.raises(LucidaError, match=r"hw2\.toml:3: .*kind"):
-        open_sources([str(tasks_in(tmp_path, 'lucida = 1\n[[ tasks ]]\nkind = "no"\n'))])
-    code = tmp_path / "rays.py"
-    code.write_text("")
-    both = open_sources([str(code), str(tasks_in(tmp_path))], dropped=True)
-    assert both.things == (OpenedCode(str(code)), OpenedTasks(str(file)))
-
-
-def test_tasks_stand_in_a_session_and_in_a_lecture(tmp_path: Path):
-    file = tasks_in(tmp_path)
-    state = with_options(
-        AppState.for_scene(load_scene("still-life")), your_code={"tasks": stored(str(file))}
-    )
-    kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.your_code
-    assert kept.tasks == stored(str(file))
-    step = lecture(tmp_path, 'options.your_code.tasks = "hw2.toml"').steps[0]
-    assert step.changes["your_code"]["tasks"] == str(file)
-    with pytest.raises(LucidaError, match=r"your_code\.tasks"):
-        lecture(tmp_path, 'options.your_code.tasks = "hw2.json"')
+def test_a_file_of_tasks_is_for_the_command(tmp_path: Path):
+    file = tmp_path / "hw2.toml"
+    file.write_text('lucida = 1\n[[tasks]]\nkind = "basis"\n')
+    with pytest.raises(LucidaError, match="holds tasks"):
+        open_sources([str(file)], dropped=True)

@@ -26,8 +26,8 @@ from lucida.renderer.camera.camera import Camera
 SIZE = (4, 3)
 CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)
 TASK = next(task for task in BUILTIN if task.kind == RAY)
-PARALLEL = next(task for task in BUILTIN if task.projections == ("parallel",))
-RIGHT = TaskResult(TASK, "right", 3.0, 379)
+PARALLEL = next(task for task in BUILTIN if task.projection == "parallel")
+RIGHT = TaskResult(TASK, "right", 379)
 QUESTION = CodeQuestion(CodeContent("rays.py"), "", CAMERA, SIZE)
 
 
@@ -105,4 +105,4 @@ def test_a_function_with_nothing_in_it_is_told_what_it_is_to_do():
     assert texts(other)[0].startswith("viewing_ray returns nothing yet.")
     assert verdict_of(other, TASK) == "empty"
     assert verdict_of(other, PARALLEL) == ""
-    assert verdict_of(report(), TASK) == "right"
+    assert verdict_of(report(), TASK) == "correct"

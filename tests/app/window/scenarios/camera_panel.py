@@ -148,6 +148,6 @@ def drive_sections_stay_as_the_user_leaves_them(d):
     assert view.sections == ()
     view.open_sections(left.sections["Camera"])  # as a session does
     d.frames(10)
-    assert d.ctx.item_info("//Camera/##look.eye.x").id_ != 0
+    assert d.ctx.item_info("//Camera/##look.up.x").id_ != 0
     assert view.sections == ("Look at",)
     close_sections(d)

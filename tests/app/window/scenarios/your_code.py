@@ -7,8 +7,8 @@ from pathlib import Path
 from imgui_bundle import hello_imgui
 
 from lucida.app.checking.tasks import Limits
-from lucida.app.checking.your_code import model
-from lucida.app.checking.your_code.view import YOUR_CODE, YourCodeView
+from lucida.app.checking.your_code import runs
+from lucida.app.checking.your_code.view import YOUR_CODE, YourCode
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.paths import stored
 from lucida.app.ui import layout
@@ -30,7 +30,7 @@ CORNER = RIGHT.replace("(j + 0.5)", "j")
 
 def view(d):
     found = d.window.views[YOUR_CODE]
-    assert isinstance(found, YourCodeView) and found.runs is not None
+    assert isinstance(found, YourCode)
     return found
 
 
@@ -125,24 +125,24 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
 
 def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
-    runs = view(d).runs
-    d.until(lambda: runs.running_s > 0.1)
+    its = view(d).runs
+    d.until(lambda: its.running_s > 0.1)
     frames = 0
     while frames < 30:  # the window goes on meanwhile
         d.frames()
         frames += 1
-    assert runs.busy
+    assert its.busy
     processes = children()
     assert processes
     view(d).ask("stop")
     until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
-    d.until(lambda: not runs.busy)
+    d.until(lambda: not its.busy)
     d.until(lambda: not (children() & processes))
     version = view(d).report.question.content.version
     camera = d.state.camera
     d.window.change(d.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
     d.frames(10)
-    assert not runs.busy  # not by itself
+    assert not its.busy  # not by itself
     assert view(d).report.question.content.version == version
     d.change(your_code={"canvas": (4, 3)})
     until_told(d, "Every ray is correct.")  # it has no fourth row
@@ -152,16 +152,15 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
 
 
 def drive_nothing_runs_that_nobody_sees(d):
-    usual, model.LIMITS = model.LIMITS, Limits(seconds=10_000.0)  # not by itself
+    usual, runs.LIMITS = runs.LIMITS, Limits(seconds=10_000.0)  # not by itself
     opened(d, RIGHT.replace("    x =", "    while i == 3:\n        pass\n    x =", 1))
-    runs = view(d).runs
-    d.until(lambda: runs.running_s > 0.1)
+    d.until(lambda: view(d).runs.running_s > 0.1)
     processes = children()
     assert processes
     hello_imgui.switch_layout(layout.LAYOUTS[0].name)
     d.until(lambda: YOUR_CODE not in d.stage.rects)
     d.until(lambda: not (children() & processes))
-    model.LIMITS = usual
+    runs.LIMITS = usual
     write(d, RIGHT)
     d.stage.show_in(YOUR_CODE, layout.LOOPS)
     until_told(d, "Every ray is correct.")
