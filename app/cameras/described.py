@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from lucida.app.cameras.basis import measures
+from lucida.app.cameras.other_words import of_any_size
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
@@ -82,6 +83,10 @@ def _of_one(posed: PosedCamera) -> list[Fact]:
     ]
     if values["K"] is not None:
         told.append(("", "K, R and t count pixels from the centre of the first one"))
+    elif not posed.camera.is_parallel:
+        left, right, bottom, top = posed.camera.viewport
+        shape = f", if W / H is {(right - left) / (top - bottom):.5g}" * posed.fit
+        told.append(("K of W x H", of_any_size(posed.camera, "center") + shape))
     return told
 
 

@@ -1,4 +1,4 @@
-"""The camera's fields as command-line options, and as read from a copied command line.
+"""The camera's fields as command-line options.
 
 Quick to import: heavy modules are imported inside functions.
 """
@@ -40,14 +40,8 @@ def numbers(count: int) -> Callable[[str], Any]:
 NO_LENS = "none"
 
 
-def lens_text(lens: Lens) -> str:
-    """Return a lens in one word: brown:k1=-0.2,k2=0.03."""
-    numbers = ",".join(f"{name}={value!r}" for name, value in lens.coefficients.items())
-    return f"{lens.model}:{numbers}" if numbers else lens.model
-
-
 def lens_word(text: str) -> Lens | str:
-    """Return the lens of such a word, or NO_LENS."""
+    """Return the lens of a word such as brown:k1=-0.2,k2=0.03, or NO_LENS."""
     from lucida.renderer.camera.lenses import Lens
 
     if text == NO_LENS:

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
@@ -35,6 +36,7 @@ def other_words(view: View, size: Size, origin: PixelOrigin) -> OtherWords:
 
     size: (width, height) of the current image. Raises LucidaError for a parallel camera.
     """
+    camera = view.for_size(view.own_size or size)
     K, R, t = view.for_size(size).intrinsics(size, origin)
     shown, given = f"in this image, {size[0]} x {size[1]}", view.own_size or size
     tables, note = [*_table("K", _clean(K))], []
@@ -51,11 +53,23 @@ def other_words(view: View, size: Size, origin: PixelOrigin) -> OtherWords:
         f"width = {given[0]}",
         f"height = {given[1]}",
         f"K = {_clean(K).tolist()}",
+        f"# in an image of the same shape, of any size W x H: K is {of_any_size(camera, origin)}",
         *note,
         f"R = {R.tolist()}",
         f"t = {t.tolist()}",
     ]
     return OtherWords(tuple(tables), "\n".join(lines) + "\n")
+
+
+def of_any_size(camera: Camera, origin: PixelOrigin) -> str:
+    """Return K as a formula of an image's width W and height H, if its viewport stays. Raises
+    LucidaError for a parallel camera.
+    """
+    K = _clean(camera.intrinsics((1, 1), "corner").K)
+    half = " - 0.5" if origin == "center" else ""
+    (fx, skew, cx), (_, fy, cy) = ([f"{value:.{_GIVEN_DIGITS}g}" for value in row] for row in K[:2])
+    s = "0" if skew == "0" else f"{skew} W"
+    return f"[[{fx} W, {s}, {cx} W{half}], [0, {fy} H, {cy} H{half}], [0, 0, 1]]"
 
 
 def _clean(part: Floats) -> Floats:

@@ -5,15 +5,9 @@ Pure. Text without a camera raises a LucidaError of one line.
 
 from __future__ import annotations
 
-import argparse
-import re
-import shlex
 from dataclasses import replace
-from typing import NoReturn
 
-from lucida.app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from lucida.app.cameras.taken import TakenCamera, is_fitted, told_of
-from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import view_from_toml
 from lucida.renderer.files.cameras import FORMATS, PosedCamera, one_of, opengl, read_cameras
 from lucida.renderer.files.cameras.given import Given
@@ -26,15 +20,12 @@ from lucida.renderer.system.errors import LucidaError
 SOURCE = "clipboard"
 MOST_CHARACTERS = 100_000
 
-_OPTION = re.compile(rf"--({'|'.join(CAMERA_OPTIONS)})\b")
-
 
 def read_copied(text: str, now: View) -> TakenCamera:
     """Return the camera in a text, with its lens if it has one. Raises LucidaError.
 
-    now: the current view, for whatever the text leaves open. Other programs leave the distance
-    open, which only scales the viewport's numbers; a command line leaves open what it does not
-    name.
+    now: the current view, for what the text leaves open. Other programs leave the distance open,
+    which only scales the viewport's numbers.
     """
     if len(text) > MOST_CHARACTERS:
         remedy = "copy a camera first; a set of cameras is opened as a file"
@@ -42,8 +33,6 @@ def read_copied(text: str, now: View) -> TakenCamera:
     with naming(SOURCE):
         if opengl.has_matrices(text):
             return _from_others(text, "opengl", now)
-        if _OPTION.search(text):
-            return _own(_from_command_line(text, now), "a command line")
         if "[camera]" in text:
             return _own(_from_toml(text), "a view file")
         for entry in FORMATS:
@@ -52,7 +41,7 @@ def read_copied(text: str, now: View) -> TakenCamera:
     raise LucidaError(
         SOURCE,
         "holds no camera",
-        "copy a view file, a command line, matrices or K, R and t first",
+        "copy a view file, matrices or K, R and t first",
     )
 
 
@@ -72,25 +61,6 @@ def _from_toml(text: str) -> View:
     if isinstance(camera, dict) and len(tables) > 1:  # a scene has more tables
         return view_from_table(camera)
     return view_from_toml(text)
-
-
-def _from_command_line(text: str, now: View) -> View:
-    try:
-        words = shlex.split(text, comments=False)
-    except ValueError:  # a quotation mark too few
-        words = text.split()
-    parser = _Parser(prog="lucida", add_help=False, allow_abbrev=False)
-    add_camera_options(parser)
-    arguments, _ = parser.parse_known_args(words)
-    whole = all(getattr(arguments, name) is not None for name in ("eye", "u", "v", "w"))
-    return with_camera_options(arguments, View(Camera.canonical()) if whole else now)
-
-
-class _Parser(argparse.ArgumentParser):
-    """A parser that neither prints nor exits."""
-
-    def error(self, message: str) -> NoReturn:
-        raise LucidaError("", f"holds no camera: {message}", "copy the command line again")
 
 
 def _given(text: str) -> Given:

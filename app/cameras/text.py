@@ -1,4 +1,4 @@
-"""A camera as text to copy: a view file, a command line, Python, OpenGL matrices; and every other
+"""A camera as text to copy: a view file, Python, OpenGL matrices; and every other
 format of a single text file.
 
 reader.py reads them back, but for Python.
@@ -6,12 +6,10 @@ reader.py reads them back, but for Python.
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
-from lucida.app.cameras.options import lens_text
 from lucida.app.cameras.presets import clip_around
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
@@ -20,10 +18,10 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files import view_to_toml
 from lucida.renderer.files.cameras import PosedCamera, opengl, written
 from lucida.renderer.scene.model import View
-from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import LucidaError
 
 Form = Literal[
-    "view file", "command line", "Python", "OpenGL matrices", "OpenCV", "NeRF", "glTF"
+    "view file", "Python", "OpenGL matrices", "OpenCV", "NeRF", "glTF"
 ]  # fmt: skip
 FORMS: tuple[Form, ...] = get_args(Form)
 # Those of other programs, by the format's name.
@@ -44,13 +42,12 @@ CALLED = {
 class Subject:
     """The subject of a text form.
 
-    source: the scene, as the command line takes it. shown: the camera as drawn, with its viewport
+    shown: the camera as drawn, with its viewport
     fitted to the image; size: of that, (width, height). bounds: (n, 3) around the scene.
     """
 
     view: View
     shown: Camera
-    source: str
     bounds: Floats
     size: Size
 
@@ -59,8 +56,6 @@ def as_text(form: Form, subject: Subject) -> str:
     """Return the camera in one of the forms. Raises LucidaError if the form cannot hold it."""
     if form == "view file":
         return view_to_toml(subject.view)
-    if form == "command line":
-        return command_line(subject.view, subject.source)
     if form == "Python":
         return python(subject.view)
     if form in FORMATS_OF:
@@ -71,18 +66,6 @@ def as_text(form: Form, subject: Subject) -> str:
         raise LucidaError("lens", "is nothing that a matrix holds", remedy)
     around = clip_around(subject.shown, subject.bounds)
     return opengl.matrices(subject.shown, around, opengl.FITTED)
-
-
-def command_line(view: View, source: str) -> str:
-    """Return `lucida render ...`, for a shell; without `render` and `-o` it opens the window."""
-    words = ["lucida", "render", _shell_word(source), "-o", "image.png"]
-    for name, value in _fields(view.camera):
-        if isinstance(value, Lens):
-            text = lens_text(value)
-        else:
-            text = ",".join(map(repr, value)) if isinstance(value, tuple) else str(value)
-        words.append(f"--{name}={text}")
-    return " ".join([*words, "--fit"] if view.fit else words)
 
 
 def python(view: View) -> str:
@@ -108,13 +91,3 @@ def _fields(camera: Camera) -> Iterator[tuple[str, Any]]:
     for field in fields(camera):
         if (value := getattr(camera, field.name)) is not None:
             yield field.name, value
-
-
-def _shell_word(source: str) -> str:
-    r"""Return a path for a shell; one that is not UTF-8 in the shell's notation for bytes,
-    $'\xff'.
-    """
-    if source.isprintable():
-        return shlex.quote(source)
-    signs = {"\\": "\\\\", "'": "\\'", "\n": "\\n", " ": " "}
-    return "$'" + "".join(signs.get(c) or one_line(c) for c in source) + "'"

@@ -6,6 +6,7 @@ import argparse
 import json
 import math
 
+from lucida.app.cameras.films.frames import stored
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import add_view_option
@@ -49,8 +50,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--channel",
-        choices=("color", "depth", "normal", "id"),
-        help="the channel of absolute and signed (default: color)",
+        choices=("color", "depth", "z", "normal", "id"),
+        help="the channel of absolute and signed; depth (t) and z differ\n"
+        "relative to the ray image's, and therefore equally (default: color)",
     )
     parser.add_argument(
         "--gain",
@@ -95,7 +97,8 @@ def run(arguments: argparse.Namespace) -> int:
         if show in (None, "causes"):
             picture = comparison.difference_image()
         else:
-            picture = comparison.false_color(channel or "color", gain or 1.0, show == "signed")
+            compared = stored(channel or "color")
+            picture = comparison.false_color(compared, gain or 1.0, show == "signed")
         write_picture(arguments.output, picture)
     if arguments.json:
         print(json.dumps(comparison.to_dict(arguments.indexing), indent=2, allow_nan=False))

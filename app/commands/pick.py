@@ -20,12 +20,14 @@ if TYPE_CHECKING:
 NAME = "pick"
 
 DESCRIPTION = """\
-Print what one pixel of an image sees: the object, the ray parameter t, point, normal and colour.
+Print what one pixel of an image sees: the object, ray parameter t, distance z, point, normal,
+colour.
 Rows are counted from the top, columns from the left, from 0 or, with --from 1, from 1."""
 
 EPILOG = """\
-t is measured as in `lucida render --channel depth`: 1 on the image plane in perspective. The normal
-is of unit length and faces the viewer; the colour is linear light, and sRGB as in a picture.
+t is measured as in `lucida render --channel depth`: 1 on the image plane in perspective; z is the
+distance along -w (`--channel z`). The normal is of unit length and faces the viewer; the colour is
+linear light, and sRGB as in a picture.
 exit status: 0 done (also if the pixel sees the background), 2 a mistake or a failure,
 130 interrupted
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
+from lucida.app.cameras.films.frames import stored, with_z
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import add_view_option
@@ -35,6 +36,8 @@ channels:
   color       (H, W, 3) float32, linear light
   depth       (H, W) float32, the ray parameter: 1 on the image plane in perspective;
               inf where nothing is hit. Picture: the nearest hit white, misses black
+  z           (H, W) float32, the distance from the eye along -w, in units of w: what
+              computer vision calls depth. Otherwise like depth
   normal      (H, W, 3) float32, world space, unit, facing the viewer; 0 where nothing
               is hit. Picture: 0.5 + 0.5 n as red, green, blue
   id          (H, W) int32, the object's index in the scene, -1 where nothing is hit.
@@ -68,7 +71,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--channel",
-        choices=("color", "depth", "normal", "id"),
+        choices=("color", "depth", "z", "normal", "id"),
         default="color",
         help="what to write for each pixel (default: color)",
     )
@@ -113,7 +116,9 @@ def run(arguments: argparse.Namespace) -> int:
     frame = draw(scene, camera, arguments)
     if not frame.complete:
         raise KeyboardInterrupt
-    write_image(arguments.output, frame, arguments.channel, arguments.exposure)
+    if arguments.channel == "z":
+        frame = with_z(frame, camera)
+    write_image(arguments.output, frame, stored(arguments.channel), arguments.exposure)
     width, height = frame.size
     print(
         f"{one_line(arguments.output)}: {arguments.channel}, {arguments.renderer}, "
@@ -139,7 +144,7 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
     The frame has the requested channel, and id, which shows whether anything is hit.
     """
     size, samples = arguments.size, arguments.samples
-    channels = tuple(dict.fromkeys((arguments.channel, "id")))
+    channels = tuple(dict.fromkeys((stored(arguments.channel), "id")))
     with common.progress_bar(arguments.renderer) as progress:
         if arguments.renderer == "raster":
             from lucida.renderer.raster import Rasterizer

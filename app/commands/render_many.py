@@ -10,7 +10,7 @@ from pathlib import Path
 
 from lucida.app.cameras.films.encoding import image_writer
 from lucida.app.cameras.films.film import Film
-from lucida.app.cameras.films.frames import Look, Shot
+from lucida.app.cameras.films.frames import Look, Shot, stored
 from lucida.app.cameras.options import with_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import say_changes, say_notes, source_of
@@ -47,7 +47,7 @@ def render_in_parts(
         check_precision(camera, size, lambda: flatten(scene))
     shots = [Shot(camera, size, rows) for rows in parts_of(size)]
     look = _look(arguments, ending)
-    film = Film(path, scene, shots, look, image_writer(arguments.channel, size))
+    film = Film(path, scene, shots, look, image_writer(stored(arguments.channel), size))
     make_film(film, arguments, "parts")
     print(
         f"{one_line(arguments.output)}: {arguments.channel}, {arguments.renderer}, "
@@ -104,6 +104,6 @@ def _check_joined(arguments: argparse.Namespace, ending: str) -> None:
         field, problem = "argument --size", f"{width}x{height} is drawn in parts"
     if ending not in JOINED:
         raise LucidaError(field, f"{problem}, which {ending} cannot be", "give .png or .exr")
-    if ending == ".png" and arguments.channel == "depth":
+    if ending == ".png" and stored(arguments.channel) == "depth":
         problem += ", which have no nearest hit in common"
         raise LucidaError(field, problem, "give .exr for the depth")

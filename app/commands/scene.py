@@ -49,17 +49,17 @@ def _contents(scene: Scene) -> list[str]:
     from lucida.renderer.editing.outline import outline
     from lucida.renderer.files.oddities import oddities
     from lucida.renderer.files.saving import light_table
-    from lucida.renderer.scene.model import Mesh, triangles_of
+    from lucida.renderer.scene.model import Mesh, triangle_count
     from lucida.renderer.system.errors import counted, one_line, quoted
 
     rows = outline(scene)
     kinds = {number: row for row in rows for number in row.ids}
-    triangles = triangles_of(scene.objects)
+    triangles = triangle_count(scene.objects)
     counts = (len(scene.objects), "object"), (triangles, "triangle"), (len(scene.lights), "light")
     seen = [scene.objects[number].shape for number, _ in scene.visible]
     lines = [f"{scene.name}: {counted(*counts)}; {_bounds(seen)}"]
     for number, entry in enumerate(scene.objects):
-        row, own = kinds[number], triangles_of([entry])
+        row, own = kinds[number], triangle_count([entry])
         color = f"color {_vector(entry.material.diffuse)}"
         lines.append(
             f"  {number:<3} {row.kind} {quoted(entry.name or row.shown)}: "

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from lucida.app.images.placement import Placement, common_pane, own_size, place
+from lucida.app.images.placement import Placement, common_pane, place
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import ImageOptions
 from lucida.renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
 from lucida.renderer.system.memo import Memo
 
 NEARBY_PX = 4  # by which the halves of a window may differ
-IMAGE_SIZE = (640, 480)  # of the camera's image while no view shows it
+UNSEEN_SIZE = (640, 480)  # of images that no view shows
 
 
 class ImageSize:
@@ -28,21 +28,25 @@ class ImageSize:
         self,
         name: str,
         pane_px: tuple[int, int],
-        options: ImageOptions,
+        state: AppState,
         rulers_px: tuple[int, int] = (0, 0),
     ) -> None:
         """Report the size of an image's window, (width, height) in framebuffer pixels.
 
-        Both images get the size of the largest of them, or the selected resolution. rulers_px: of
-        the rulers next to magnified pixels, see Placement.
+        Both images get the size of the largest of them, or the selected resolution. A camera of a
+        set is seen through at its own shape. rulers_px: of the rulers next to magnified pixels, see
+        Placement.
         """
+        options, given = state.images, state.view.given
         self.panes_px[name], self._rulers_px = pane_px, rulers_px
         if options.resolution is not None:
             self.size = options.resolution
             return
-        pane = common_pane(list(self.panes_px.values()))
-        width, height = own_size(options, pane, rulers_px if options.grid else (0, 0))
+        width, height = common_pane(list(self.panes_px.values()))
         width, height = min(width, LARGEST_SIDE), min(height, LARGEST_SIDE)
+        if state.options.poses.pose >= 0 and given is not None and given[1] is not None:
+            scale = min(width / given[1][0], height / given[1][1])
+            width, height = (max(1, round(scale * side)) for side in given[1])
         self.size = (width, min(height, LARGEST_PIXELS // width))
 
     def common_room(self, pane_px: tuple[int, int]) -> tuple[int, int]:
@@ -77,7 +81,7 @@ class ImageSize:
     def need_size(self, options: ImageOptions) -> None:
         """Give the images a size if none of them has been visible yet."""
         if not min(self.size):
-            self.size = options.resolution or _unseen_size(options)
+            self.size = options.resolution or UNSEEN_SIZE
 
     def follow_resolution(self, state: AppState) -> None:
         """Apply the selected resolution, also while no image is visible.
@@ -89,11 +93,5 @@ class ImageSize:
         if resolution is not None:
             self.size = resolution
         elif not self.panes_px and (self._selected is not None or state.step is not None):
-            self.size = _unseen_size(state.images)
+            self.size = UNSEEN_SIZE
         self._selected = resolution
-
-
-def _unseen_size(options: ImageOptions) -> tuple[int, int]:
-    """Return the (width, height) of images that no view shows."""
-    width, height = (side // options.pixel_size for side in IMAGE_SIZE)
-    return width, height

@@ -44,13 +44,6 @@ def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppS
     return state.with_options(images)
 
 
-def with_pixel_size(state: AppState, pixel_size: int) -> AppState:
-    """Make the images as large as the window, with pixels that are this many screen pixels wide."""
-    return with_resolution(
-        state.with_options(replace(state.options.images, pixel_size=pixel_size)), None
-    )
-
-
 def with_magnification(state: AppState, magnification: float | None) -> AppState:
     """Magnify about the centre; None: show the whole image."""
     if magnification is None:
@@ -63,14 +56,4 @@ def with_magnification(state: AppState, magnification: float | None) -> AppState
 def resolution_text(options: ImageOptions) -> str:
     """Return the name of a resolution, for the strip and the menu."""
     many = f", {options.samples} samples" if options.samples > 1 else ""
-    if options.resolution is not None:
-        return size_text(options.resolution) + many
-    size = options.pixel_size
-    return ("Window" if size == 1 else f"Window / {size}") + many
-
-
-def lens_text(state: AppState) -> str:
-    """Return how the raster image of a lens is drawn, for the strip; "" without a lens."""
-    if state.camera.lens is None:
-        return ""
-    return f"Lookup {state.images.lens_enlargement}x"
+    return (size_text(options.resolution) if options.resolution else "Window") + many

@@ -30,14 +30,17 @@ PLACES = {False: "", True: "coarse"}  # by whether the image is coarse, see Rast
 class RasterImage:
     """An image.
 
-    factor: how many times coarser it is. number: differs from image to image. textures: the next
-    image overwrites them.
+    factor: how many times coarser it is. textures: the next image overwrites them.
     """
 
     request: ImageRequest
     factor: int
-    number: int
     textures: Textures
+
+    def texture(self, channel: str) -> moderngl.Texture:
+        """Return a channel's texture, as Display.show() takes it."""
+        drawn = self.textures
+        return {"color": drawn.color, "id": drawn.object}.get(channel, drawn.surface)
 
 
 class LiveRaster:
@@ -54,7 +57,6 @@ class LiveRaster:
         self._timer = context.query(time=True)
         self._drawing: tuple[int, float] | None = None  # the factor, and this thread's time
         self.lens_tables = LensTables()
-        self._number = 0
         self._values = Memo(_read, most=2)  # of the visible pixels, and of the one under the mouse
         self.image: RasterImage | None = None
         self.took = 1, 0.0
@@ -136,8 +138,7 @@ class LiveRaster:
             self.forget()
             raise
         self._drawing = factor, time.thread_time() - start_s
-        self._number += 1
-        self.image = RasterImage(request, factor, self._number, textures)
+        self.image = RasterImage(request, factor, textures)
         return self.image
 
 

@@ -159,12 +159,6 @@ def rulers_in(pane: Size, rulers: Size) -> Size:
     return rulers if has_room else (0, 0)
 
 
-def own_size(options: ImageOptions, pane: Size, rulers: Size) -> Size:
-    """Return the (width, height) of an image that fills a window at the selected pixel size."""
-    room = beside(pane, margin_at(options.pixel_size, rulers_in(pane, rulers)))
-    return max(1, room[0] // options.pixel_size), max(1, room[1] // options.pixel_size)
-
-
 def magnification_of(options: ImageOptions, size: Size, pane: Size, rulers: Size) -> float:
     """Return the magnification that the options mean for an image in a window.
 
@@ -180,11 +174,8 @@ def magnification_of(options: ImageOptions, size: Size, pane: Size, rulers: Size
 
 
 def _unruled(options: ImageOptions, size: Size, pane: Size) -> float:
-    if options.resolution is None and all(
-        s * options.pixel_size <= p for s, p in zip(size, pane, strict=True)
-    ):
-        return float(options.pixel_size)
-    return fit_magnification(size, pane)
+    is_own = options.resolution is None and size[0] <= pane[0] and size[1] <= pane[1]
+    return 1.0 if is_own else fit_magnification(size, pane)
 
 
 def common_pane(panes: Sequence[Size]) -> Size:

@@ -22,7 +22,7 @@ from lucida.app.images.progressive_ray import LiveTrace, RayImage
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.scene_tracer import tracer_for
 from lucida.app.images.shown import Picture
-from lucida.app.images.textures import ImageTextures
+from lucida.app.images.textures import PANE, ImageTextures
 from lucida.app.images.window_rasterizer import FAILURES
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import ImageOptions
@@ -172,19 +172,18 @@ class Renderers(ImageSize):
 
     # Pictures and values.
 
-    def raster_picture(self, state: AppState, placement: Placement) -> Picture | None:
-        """Return the visible part of the raster image in a window, drawn again if necessary; None
-        on failure.
-        """
-        request = self.request(state)
-        assert request is not None
-        return self._begun.raster_in(placement, request, look_of(state.images))
+    def picture(
+        self, is_ray: bool, state: AppState, placement: Placement, name: str = PANE
+    ) -> Picture | None:
+        """Return the visible part of the raster image in a window, drawn again if necessary, or of
+        the newest ray image. None on failure, or if that has another camera than the raster image.
 
-    def ray_picture(self, state: AppState, placement: Placement) -> Picture | None:
-        """Return the same of the newest ray image; None if the raster image has another camera."""
-        request = self.request(state)
+        name: see Pictures.picture.
+        """
+        request, textures = self.request(state), self._begun
         assert request is not None
-        return self._begun.ray_in(placement, request, look_of(state.images))
+        draw = textures.ray_in if is_ray else textures.raster_in
+        return draw(placement, request, look_of(state.images), name)
 
     def shown_ray(self, state: AppState) -> RayImage | None:
         """Return the ray image that is shown; None if it is stale."""

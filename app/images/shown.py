@@ -1,4 +1,4 @@
-"""One image on its way to the screen: its channels, its look, and the visible part.
+"""An image on its way to the screen: its look, and the visible part.
 
 A picture is drawn again only if something has changed.
 
@@ -9,8 +9,7 @@ part is drawn.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import moderngl
 
@@ -35,6 +34,10 @@ class Picture:
     made: object
 
 
+# A texture as Display.show() takes it, and another object whenever other pixels are in it.
+Source = tuple[moderngl.Texture, object]
+
+
 class _Target:
     """A picture's texture and framebuffer, and the cached drawing into them."""
 
@@ -47,48 +50,32 @@ class _Target:
         self.texture.release()
 
 
-class ShownImage:
-    """An image in a context, which must be current in every call. Raises LucidaError."""
+class Pictures:
+    """Images in a context, which must be current in every call. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
         self._display = Display(context)
-        self._channels: dict[str, moderngl.Texture] = {}
-        self._version = 0
         self._pictures: dict[str, _Target] = {}
         self._retired: list[_Target] = []
-
-    def set_channels(self, channels: Mapping[str, moderngl.Texture]) -> None:
-        """Replace the image by the caller's textures, as Display.show() takes them. Empty: no
-        image.
-        """
-        self._channels = dict(channels)
-        self._version += 1
 
     def picture(
         self,
         name: str,
         look: Look,
         placement: Placement,
+        source: Source,
         depths: DepthBounds | None = None,
-    ) -> Picture | None:
-        """Return the visible part of the image in a window; None without an image. If the look's
-        channel is missing, another one is shown.
+    ) -> Picture:
+        """Return the visible part of an image in a window.
 
         name: of the picture: the next call with the same name overwrites it. The texture stays
-        until the frame after the next, even if another replaces it.
+        until the frame after the next, even if another replaces it. source: of the look's channel.
         """
-        if not self._channels:
-            return None
-        if look.channel not in self._channels:
-            look = replace(look, channel=next(iter(self._channels)))  # type: ignore[arg-type]
-        source = self._channels[look.channel]
-        section = section_of(placement, source.size)
+        section = section_of(placement, source[0].size)
         needed = depths if look.channel == "depth" else None
         target = self._of_size(name, visible_size(placement))
-        made = target.draw(
-            self._display, (source, self._version), look, section, target.framebuffer, needed
-        )
+        made = target.draw(self._display, source, look, section, target.framebuffer, needed)
         return Picture(target.texture, made)
 
     def begin_frame(self) -> None:
@@ -98,7 +85,6 @@ class ShownImage:
         self._retired.clear()
 
     def release(self) -> None:
-        self._channels.clear()
         self._retired += self._pictures.values()
         self._pictures.clear()
         self.begin_frame()
@@ -118,7 +104,7 @@ class ShownImage:
 
 def _show(
     display: Display,
-    source: tuple[moderngl.Texture, int],
+    source: Source,
     look: Look,
     section: Section,
     target: moderngl.Framebuffer,

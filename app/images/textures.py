@@ -6,11 +6,11 @@ import contextlib
 
 import moderngl
 
-from lucida.app.images.live_raster import Choice, LiveRaster, RasterImage
+from lucida.app.images.live_raster import Choice, LiveRaster
 from lucida.app.images.placement import Placement
 from lucida.app.images.progressive_ray import RayImage
 from lucida.app.images.request import ImageRequest
-from lucida.app.images.shown import DepthBounds, Picture, ShownImage, whole
+from lucida.app.images.shown import DepthBounds, Picture, Pictures, Source, whole
 from lucida.app.images.window_rasterizer import FAILURES, WindowRasterizer
 from lucida.renderer.raster import DepthRange, Look, upload
 from lucida.renderer.system.memo import Memo
@@ -32,12 +32,11 @@ class ImageTextures:
         self._gl, self._choice = context, choice
         self.rasterizer = WindowRasterizer(context)
         self.raster = LiveRaster(context, self.rasterizer, choice)
-        self._shown_raster, self._shown_ray = ShownImage(context), ShownImage(context)
-        self._show_raster = Memo(_show_raster)
+        self._pictures = Pictures(context)
         self._ray: RayImage | None = None
-        # The image and channel that are on the GPU.
-        self._uploaded: tuple[RayImage, str, moderngl.Texture] | None = None
+        self._uploaded: tuple[RayImage, str] | None = None  # image and channel in _ray_texture
         self._ray_texture: moderngl.Texture | None = None
+        self._upload_count = 0
         self._ray_failures = 0
         self._range = DepthRange(context)
         self._depths: DepthBounds | None = None
@@ -57,8 +56,7 @@ class ImageTextures:
     def begin_frame(self) -> None:
         """Call once a frame, before anything else."""
         self._frame += 1
-        self._shown_raster.begin_frame()
-        self._shown_ray.begin_frame()
+        self._pictures.begin_frame()
         self.raster.begin_frame()
         self._range.numbers()  # read them even if nobody asks, so that nothing is left to do
 
@@ -77,15 +75,15 @@ class ImageTextures:
         """Return the visible part of the raster image in a window, drawn again if necessary; None
         if that failed, see raster_error.
 
-        name: see ShownImage.picture.
+        name: see Pictures.picture.
         """
         try:
             image = self.raster.follow(request)
             self._raster_frame = self._frame
-            self._show_raster(self._shown_raster, image)
+            source = image.texture(look.channel), image
             if look.channel == "depth":
-                self._measure(image, image.textures.surface)
-            picture = self._shown_raster.picture(name, look, placement, self._depths)
+                self._measure(source)
+            picture = self._pictures.picture(name, look, placement, source, self._depths)
             self.raster_error = None
             return picture
         except FAILURES as error:  # shown in the window, which goes on
@@ -121,14 +119,13 @@ class ImageTextures:
         try:
             if getattr(image.frame, look.channel) is None:
                 return None  # coarse, and begun before the channel was selected
-            _, _, texture = self._uploaded = self._upload(image, look.channel)
+            source = self._upload(image, look.channel)
             if look.channel == "depth" and not self.sees_raster:
-                self._measure(self._uploaded, texture)
-            picture = self._shown_ray.picture(name, look, placement, self._depths)
+                self._measure(source)
+            picture = self._pictures.picture(f"{name} ray", look, placement, source, self._depths)
             self.ray_error = None
             return picture
         except FAILURES as error:
-            self._shown_ray.set_channels({})
             self._uploaded, self._ray_failures, self.ray_error = None, self._ray_failures + 1, error
             return None
 
@@ -148,31 +145,22 @@ class ImageTextures:
     def release(self) -> None:
         self.raster.lens_tables.close()
         with contextlib.suppress(moderngl.Error):
-            for part in (self.rasterizer, self._shown_raster, self._shown_ray, self._range):
+            for part in (self.rasterizer, self._pictures, self._range):
                 part.release()
             if self._ray_texture is not None:
                 self._ray_texture.release()
 
-    def _upload(self, image: RayImage, channel: str) -> tuple[RayImage, str, moderngl.Texture]:
+    def _upload(self, image: RayImage, channel: str) -> Source:
         """Upload one channel, unless it is there already: in a large image, each takes 100 MB."""
-        uploaded = self._uploaded
-        if uploaded is not None and uploaded[:2] == (image, channel):
-            return uploaded
-        texture, self._ray_texture = self._ray_texture, None  # upload() releases it if it fails
-        self._ray_texture = texture = upload(self._gl, image.shown(channel), texture)
-        self._shown_ray.set_channels({channel: texture})
-        return image, channel, texture
+        if self._uploaded != (image, channel) or self._ray_texture is None:
+            texture, self._ray_texture = self._ray_texture, None  # upload() releases it if it fails
+            self._ray_texture = upload(self._gl, image.shown(channel), texture)
+            self._uploaded, self._upload_count = (image, channel), self._upload_count + 1
+        return self._ray_texture, self._upload_count  # not the image, which pictures would keep
 
-    def _measure(self, image: object, texture: moderngl.Texture) -> None:
-        self._depths = self._measured(self._range, texture, image)
+    def _measure(self, source: Source) -> None:
+        self._depths = self._measured(self._range, source)
 
 
-def _show_raster(shown: ShownImage, image: RasterImage) -> None:
-    drawn = image.textures
-    surface = {"depth": drawn.surface, "normal": drawn.surface}
-    shown.set_channels({"color": drawn.color, "id": drawn.object, **surface})
-
-
-def _measured(depth_range: DepthRange, texture: moderngl.Texture, image: object) -> DepthBounds:
-    """Measure a texture that holds an image."""
-    return DepthBounds(depth_range.measure(texture))
+def _measured(depth_range: DepthRange, source: Source) -> DepthBounds:
+    return DepthBounds(depth_range.measure(source[0]))

@@ -81,11 +81,8 @@ def _options(before: AppState, after: AppState) -> list[str]:
         words.append("Clear the mark" if pixel is None else f"Mark {new.indexing.text(pixel)}")
     if old.probe.pins != new.probe.pins:
         words.append("Pin a pixel" if len(new.probe.pins) > len(old.probe.pins) else "Remove pins")
-    sizes = [(one.images.resolution, one.images.pixel_size) for one in (old, new)]
-    if sizes[0] != sizes[1]:
-        size, pixel_px = sizes[1]
-        fitted = "fit to window" if pixel_px == 1 else f"pixels {pixel_px} x {pixel_px}"
-        words.append(f"Resolution: {fitted if size is None else f'{size[0]} x {size[1]}'}")
+    if old.images.resolution != (size := new.images.resolution):
+        words.append(f"Resolution: {f'{size[0]} x {size[1]}' if size else 'fit to window'}")
     if old.images.samples != new.images.samples:
         words.append(f"Samples per pixel: {old.images.samples} to {new.images.samples}")
     if old.images.lens_enlargement != new.images.lens_enlargement:

@@ -89,9 +89,7 @@ class Camera:
 
     @classmethod
     def canonical(cls) -> Camera:
-        """Return the lecture's camera: eye at the origin, looking down -z, a 1 x 1 viewport at d =
-        1.
-        """
+        """Return the lecture's camera: at the origin, looking down -z, a viewport of 1 x 1, d 1."""
         return cls()
 
     @classmethod
@@ -108,8 +106,8 @@ class Camera:
         """Return an orthonormal camera at `eye`, looking at `target`, with `up` upwards in the
         image.
 
-        Give the vertical field of view, or the distance of a viewport 1 high; with neither, the
-        distance is 1. aspect: the viewport's width over its height.
+        Give the vertical field of view, or the distance of a viewport 1 high (default: 1). aspect:
+        the viewport's width over its height.
         """
         position, basis = looking_at(eye, target, up)
         if fov_y_deg is not None:
@@ -239,6 +237,15 @@ class Camera:
         direction = self.lens_directions(size) @ self.basis.T
         return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
 
+    def z_from_t(self, t: ArrayLike, size: Size) -> Floats:
+        """Return the distances z along -w, in units of w, of the ray parameters t of all pixels:
+        both (height, width). It is infinite where t is.
+        """
+        ahead = self.distance if self.lens is None else -self.lens_directions(size)[..., 2]
+        with np.errstate(invalid="ignore"):  # outside of the lens
+            z = np.asarray(t, float) * (1.0 if self.is_parallel else ahead)
+        return np.where(np.isfinite(t), z, t)
+
     def lens_directions(self, size: Size) -> Floats:
         """Return the directions of all pixels' rays in units of u, v and w: read-only float64
         (height, width, 3), NaN outside of the lens. They do not depend on eye and basis, and are
@@ -248,10 +255,9 @@ class Camera:
         return image_plane.all_seen_through(self.lens, self.viewport, self.distance, size)
 
     def direction(self, x: ArrayLike, y: ArrayLike) -> Floats:
-        """Return the directions (..., 3) of the rays through points of the image plane, in
-        perspective; NaN outside of the lens.
+        """Return the directions (..., 3) of perspective rays through points of the image plane.
 
-        x, y: in units of u and v, any shape.
+        x, y: in units of u and v, any shape. Outside of the lens, the directions are NaN.
         """
         x, y = np.asarray(x, float), np.asarray(y, float)
         if self.lens is None:
@@ -287,8 +293,7 @@ class Camera:
         return decomposed(self.basis @ image, self.eye, pixel_origin)
 
     def project(self, points: ArrayLike, size: Size) -> Projected:
-        """Return pixel coordinates and ray parameters of world points (..., 3): the inverse of
-        ray().
+        """Return the pixels and ray parameters of world points (..., 3): the inverse of ray().
 
         row and column are 0-based, with the pixels' centres at integers. In perspective they are
         NaN for points that are not in front of the eye (parameter <= 0), or that the lens does not
@@ -315,9 +320,7 @@ class Camera:
 
     @property
     def camera_from_world(self) -> Floats:
-        """The inverse of world_from_camera, read-only; not simply a transpose, since the basis may
-        be skewed.
-        """
+        """The inverse of world_from_camera, read-only; no transpose: the basis may be skewed."""
         return inverse(self.eye, self.u, self.v, self.w)
 
     def image_from_world(self, size: Size) -> Floats:
@@ -350,10 +353,7 @@ class Camera:
     # Cameras derived from this one.
 
     def orthonormalized(self) -> Camera:
-        """Return the camera with its basis orthonormalised by Gram-Schmidt.
-
-        w keeps its direction, and the basis its handedness.
-        """
+        """Return the camera with an orthonormal basis (Gram-Schmidt); w keeps its direction."""
         u, v, w = orthonormal(self.u, self.v, self.w)
         return replace(self, u=u, v=v, w=w)
 

@@ -18,8 +18,8 @@ def picked(
 ) -> dict[str, Any]:
     """Return a pixel of a frame with all channels, as JSON values.
 
-    object, t, point and normal are None for the background; outside of the lens, the ray is, too.
-    indexing: of the printed pixel.
+    object, t, z (the distance along -w), point and normal are None for the background; outside of
+    the lens, the ray is, too. indexing: of the printed pixel.
     """
     ray = camera.ray(*pixel, frame.size)
     color = frame.channel("color")[pixel]
@@ -27,13 +27,15 @@ def picked(
     hit = number >= 0
     t = float(frame.channel("depth")[pixel])
     is_seen = math.isfinite(ray.direction[0])
+    point = ray.origin + t * ray.direction
     return {
         "pixel": list(indexing.numbers(pixel)),
         "pixels_from": indexing.value,
         "size": list(frame.size),
         "object": {"id": number, "name": scene.objects[number].name} if hit else None,
         "t": t if hit else None,
-        "point": (ray.origin + t * ray.direction).tolist() if hit else None,
+        "z": -float(camera.camera_from_world[2] @ [*point, 1.0]) if hit else None,
+        "point": point.tolist() if hit else None,
         "normal": frame.channel("normal")[pixel].tolist() if hit else None,
         "color": color.tolist(),
         "srgb": to_srgb8(color).tolist(),
@@ -59,7 +61,7 @@ def as_rows(seen: dict[str, Any]) -> list[tuple[str, str]]:
     else:
         entry = seen["object"]
         lines.append(("object", one_line(f"{entry['id']} {entry['name']}")))
-        lines.append(("t", f"{seen['t']:.6g}"))
+        lines += [(name, f"{seen[name]:.6g}") for name in "tz"]
         lines += [(name, _vector(seen[name])) for name in ("point", "normal")]
     red, green, blue = seen["srgb"]
     srgb = f"sRGB {red} {green} {blue}, #{red:02x}{green:02x}{blue:02x}"

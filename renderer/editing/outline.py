@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from lucida.renderer.editing.changing import Item, as_tables, fields_of, listed, origin_of
 from lucida.renderer.files.schema import ModelTable
-from lucida.renderer.scene.model import Scene, SceneObject, Sphere, triangles_of
+from lucida.renderer.scene.model import Scene, SceneObject, Sphere, triangle_count
 from lucida.renderer.system.errors import LucidaError
 
 
@@ -56,7 +56,7 @@ def outline(scene: Scene) -> tuple[OutlineRow, ...]:
             fields.hidden,
             fields.locked,
             ids=range(*origin.first_ids[number : number + 2]),
-            triangles=triangles_of(entry.objects),
+            triangles=triangle_count(entry.objects),
             material=fields.material if isinstance(fields.material, str) else "",
             file=file,
         )
@@ -74,5 +74,12 @@ def _read_only(number: int, entry: SceneObject) -> OutlineRow:
     kind = "sphere" if isinstance(entry.shape, Sphere) else "mesh"
     shown, ids = entry.name or f"{kind} {number}", range(number, number + 1)
     return OutlineRow(
-        None, entry.name, shown, kind, entry.hidden, True, ids=ids, triangles=triangles_of([entry])
+        None,
+        entry.name,
+        shown,
+        kind,
+        entry.hidden,
+        True,
+        ids=ids,
+        triangles=triangle_count([entry]),
     )

@@ -46,7 +46,7 @@ from lucida.renderer.scene.model import (
     SceneObject,
     Sphere,
     View,
-    triangles_of,
+    triangle_count,
 )
 from lucida.renderer.scene.origin import FileEntry, Keys, Origin, SavedFile
 from lucida.renderer.system.cancelling import check_cancelled
@@ -185,7 +185,7 @@ class _Builder:
             with under(f"objects[{number}]"):
                 material = self._material_of(entry.material)
                 if isinstance(entry, ModelTable):
-                    triangles += triangles_of(self._parts.model(entry.file).objects)
+                    triangles += triangle_count(self._parts.model(entry.file).objects)
             check_count(triangles, TRIANGLES, "triangles", "objects", SPLIT)
             with under(f"objects[{number}]"):
                 was = known[number]

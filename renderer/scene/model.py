@@ -257,7 +257,7 @@ class Scene:
 
     def __repr__(self) -> str:
         objects, lights = len(self.objects), len(self.lights)
-        triangles = triangles_of(self.objects)
+        triangles = triangle_count(self.objects)
         name = f"{self.name!r}: " if self.name else ""
         return f"Scene({name}{objects} objects, {triangles:,} triangles, {lights} lights)"
 
@@ -278,7 +278,8 @@ class Scene:
             object.__setattr__(self, name, color(name, getattr(self, name)))
 
 
-def triangles_of(objects: Iterable[SceneObject]) -> int:
+def triangle_count(objects: Iterable[SceneObject]) -> int:
+    """Return the number of triangles of some objects; a sphere has none."""
     return sum(len(entry.shape.faces) for entry in objects if isinstance(entry.shape, Mesh))
 
 

@@ -197,7 +197,7 @@ class Attack:
         changes = self.rng.choice(
             (
                 {"images": {"exposure_ev": self.rng.uniform(-20, 20)}},
-                {"images": {"pixel_size": self.rng.randrange(0, 40)}},
+                {"images": {"samples": self.rng.randrange(0, 70)}},
                 {"images": {"resolution": self.rng.choice((None, (1, 1), (7, 300), (640, 360)))}},
                 {"images": {"magnification": self.rng.choice((None, 0.0, 1e9, 3.3))}},
                 {"images": {"channel": self.rng.choice(("color", "depth", "normal", "id"))}},

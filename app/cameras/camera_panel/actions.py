@@ -14,13 +14,14 @@ from imgui_bundle import imgui
 
 from lucida.app.cameras.lens_choices import LENS_PRESETS, LensPreset
 from lucida.app.cameras.meanings import Meaning, matrix_in, meanings
-from lucida.app.cameras.presets import PRESETS, Preset, framed, preset_view
+from lucida.app.cameras.presets import PRESETS, Preset, framed, look_at, preset_view
 from lucida.app.cameras.reader import read_copied
 from lucida.app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from lucida.app.state.app_state import AppState, is_orthonormal
 from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import switched_projection
 from lucida.renderer.scene.model import View
@@ -75,6 +76,16 @@ def go_to_view(window: Host, view: View) -> None:
     window.travel(with_its_basis(window.state.with_view(view)))
 
 
+def look_there(window: Host, target: Vector, up: Vector) -> None:
+    """Turn the camera towards a point."""
+    try:
+        view = look_at(window.state.view, window.state.camera.eye, target, up)
+    except LucidaError as error:
+        window.files.message = str(error)
+        return
+    go_to_view(window, view)
+
+
 def go_to_canonical(window: Host) -> None:
     """Move to the lecture's camera."""
     view = replace(window.state.view, camera=Camera.canonical())
@@ -114,10 +125,8 @@ def copy(window: Host, form: Form) -> None:
     nothing.
     """
     state = window.state
-    origin = state.scene.origin
-    source = (origin.source if origin is not None else "") or "SCENE"
     shown = window.renderers.camera(state)
-    subject = Subject(state.view, shown, source, window.focus.bounds, image_size(window))
+    subject = Subject(state.view, shown, window.focus.bounds, image_size(window))
     try:
         text = as_text(form, subject)
     except LucidaError as error:

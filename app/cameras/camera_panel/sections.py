@@ -12,12 +12,11 @@ from typing import Any, NamedTuple
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.camera_panel.actions import go_to_view
+from lucida.app.cameras.camera_panel.actions import look_there
 from lucida.app.cameras.camera_panel.projection import PanelContext
 from lucida.app.cameras.other_words import TOLD, other_words
-from lucida.app.cameras.presets import look_at
 from lucida.app.state.app_state import AppState
-from lucida.app.ui import pending, rows, theme
+from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import radio_button
 from lucida.app.ui.fields import Scale
 from lucida.app.ui.host import Host
@@ -32,7 +31,6 @@ ORIGIN_NOTES: dict[PixelOrigin, str] = {
     "corner": "The image's corner is (0, 0), the first pixel's centre (0.5, 0.5), as in COLMAP.",
 }
 LOOK_FIELDS = (
-    ("eye", "Where the camera is."),
     ("target", "What it looks at: in the middle of an on-axis image."),
     ("up", "Which direction is up in the image; not along the view direction."),
 )
@@ -40,12 +38,10 @@ LOOK_FIELDS = (
 
 @dataclass(frozen=True)
 class LookAt:
-    """The form's contents. eye: None for the camera's own. target: None for the scene's centre."""
+    """The form's contents. target: None for the scene's centre."""
 
-    eye: Vector | None = None
     target: Vector | None = None
     up: Vector = (0.0, 1.0, 0.0)
-    error: LucidaError | None = None
 
 
 @dataclass(frozen=True)
@@ -73,17 +69,12 @@ def header(name: str, sections: Sections) -> bool:
 
 
 def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[LookAt, Wish | None]:
-    """Draw the form for eye, target and up."""
+    """Draw the form for target and up, seen from the eye."""
     thirds = rows.Thirds()
-    now = {
-        "eye": look.eye or state.camera.eye,
-        "target": look.target or around.focus.center,
-        "up": look.up,
-    }
+    now = {"target": look.target or around.focus.center, "up": look.up}
     for name, note in LOOK_FIELDS:
         imgui.align_text_to_frame_padding()
-        shown = "e" if name == "eye" else name
-        imgui.text_colored(theme.TEXT, shown)
+        imgui.text_colored(theme.TEXT, name)
         rows.tip(note)
         reach = 1.0 if name == "up" else around.focus.reach
         for axis, letter in enumerate("xyz"):
@@ -94,26 +85,18 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
                 thirds.field_px,
                 Scale(-reach, reach),
                 note,
-                wrong=look.error is not None and look.error.field == name,
                 reset=(0.0, 1.0, 0.0)[axis] if name == "up" else None,
             )
             if changed:
                 entered: dict[str, Any] = {name: (*now[name][:axis], value, *now[name][axis + 1 :])}
-                look = replace(look, error=None, **entered)
+                look = replace(look, **entered)
     wish = None
     if imgui.button("Look there", (-1, 0)):
-        try:
-            view = look_at(state.view, now["eye"], now["target"], now["up"])
-            wish = Wish(partial(go_to_view, view=view))
-            look = replace(look, eye=None, error=None)
-        except LucidaError as error:
-            look = replace(look, error=error)
+        wish = Wish(partial(look_there, target=now["target"], up=now["up"]))
     rows.tip(
         "w = from target to eye, of length 1;  u = up x w, of length 1;  v = w x u.\n"
         "Distance, viewport and projection stay."
     )
-    if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
-        look = LookAt()
     return look, wish
 
 

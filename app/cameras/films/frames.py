@@ -6,8 +6,10 @@ Workers on other machines call draw_shot() with the scene that they have been se
 from __future__ import annotations
 
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
+
+import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -33,7 +35,7 @@ class Look:
     """The settings of pictures; all but threads decide what they look like.
 
     samples: per pixel. shadows, mirrors: of the ray tracer. threads: None for one per processor.
-    channel, ending: what is written of each, and its format.
+    channel, ending: what is written of each (a frame's channel, or z), and its format.
     """
 
     renderer: Literal["raster", "ray"] = "raster"
@@ -67,18 +69,32 @@ class Drawing:
 
     def encoded(self, shot: Shot) -> bytes:
         """Return the bytes of the picture's file."""
-        look = self.look
-        return encode_image(look.ending, self._frame(shot), look.channel, look.exposure)
+        look, frame = self.look, self._frame(shot)
+        if look.channel == "z":
+            camera = shot.camera.cropped(shot.rows, shot.size) if shot.rows else shot.camera
+            frame = with_z(frame, camera)
+        return encode_image(look.ending, frame, stored(look.channel), look.exposure)
 
     def _frame(self, shot: Shot) -> Frame:
         look, camera, size = self.look, shot.camera, shot.size
-        channels = (look.channel,)
+        channels = (stored(look.channel),)
         if look.renderer == "ray":
             return self._tracer.render(camera, size, channels, look.samples, None, shot.rows)
         if shot.rows is not None:
             camera = camera.cropped(shot.rows, size)
             size = size[0], shot.rows[1] - shot.rows[0]
         return self._rasterizer.render(camera, size, channels, look.samples, None, look.enlargement)
+
+
+def stored(channel: str) -> str:
+    """Return the frame's channel that holds a channel of a file: z is in the depth's place."""
+    return "depth" if channel == "z" else channel
+
+
+def with_z(frame: Frame, camera: Camera) -> Frame:
+    """Return a frame with the distances z along -w in place of its ray parameters t."""
+    z = camera.z_from_t(frame.channel("depth"), frame.size)
+    return replace(frame, depth=z.astype(np.float32))
 
 
 _kept: Drawing | None = None  # of this process

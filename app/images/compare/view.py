@@ -10,9 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import moderngl
-import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
-from numpy.typing import NDArray
 
 from lucida.app.images.compare import comparing, panel
 from lucida.app.images.compare.actions import COMPARING
@@ -20,7 +18,7 @@ from lucida.app.images.compare.pictures import Bytes, difference_picture, marked
 from lucida.app.images.pair.pane import Pane
 from lucida.app.images.pair.view import ImageView, RasterView
 from lucida.app.images.placement import Placement
-from lucida.app.images.renderers import Renderers, look_of
+from lucida.app.images.renderers import Renderers
 from lucida.app.images.screen import Screen
 from lucida.app.images.shown import Picture, visible_size
 from lucida.app.state.app_state import AppState
@@ -33,7 +31,6 @@ from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.uploads import Uploads
 from lucida.renderer.images.frame import Frame
-from lucida.renderer.raster.targets import Region
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
 
@@ -41,7 +38,7 @@ NAME = "Compare"
 KEY_STEP = 0.01  # of the divider, by an arrow key
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
-COMPARED = "compared"  # the two images, as they are looked at; see ShownImage.picture
+COMPARED = "compared"  # the two images, as they are looked at; see Pictures.picture
 SMALL_EM = 22.0  # a view that is less high shows its image alone
 MUTED = 0.6  # how dark an image is that stands in for a difference
 
@@ -92,11 +89,8 @@ class CompareView(ImageView):
         def picture(state: AppState, placement: Placement) -> Picture | None:
             return self._picture(both, state, placement)
 
-        def values(state: AppState, channel: str, region: Region) -> NDArray | None:
-            return _values(both, state, channel, region)
-
         error = both.raster_error or both.ray_error
-        self._pane(host, Pane(picture, values if is_wipe else None, error, legend=is_wipe))
+        self._pane(host, Pane(picture, None, error, legend=is_wipe))
         both.trace(host.state)
 
     def _strip(self, host: Host) -> None:
@@ -130,7 +124,7 @@ class CompareView(ImageView):
         both, options = host.renderers, host.options.compare
         draw, (low, high) = imgui.get_window_draw_list(), screen.visible
         if options.mode == "wipe":
-            picture = _image(both, host.state, screen.placement, is_ray=True)
+            picture = both.picture(True, host.state, screen.placement, COMPARED)
             if picture is not None:
                 x = self._divider_x(host.state, screen, both.size)
                 tint = theme.u32(ImVec4(1, 1, 1, options.rise))
@@ -153,12 +147,11 @@ class CompareView(ImageView):
         options = state.options.compare
         if options.mode == "wipe":
             beside = options.divider < 1.0 and options.rise == 1.0
-            if beside and _image(both, state, placement, is_ray=True) is None:
+            if beside and both.picture(True, state, placement, COMPARED) is None:
                 return None  # without the ray image, the raster image must not be taken for it
-            return _image(both, state, placement, is_ray=False)
-        difference = self._difference(both, state)
+        difference = self._difference(both, state) if options.mode == "absolute" else None
         if difference is None:
-            return _image(both, state, placement, is_ray=False)
+            return both.picture(False, state, placement, COMPARED)
         texture = self._placed("difference", difference, placement)
         return Picture(texture, texture)
 
@@ -207,7 +200,7 @@ class CompareView(ImageView):
             host.edit(replace(options, divider=part))
 
     def _divider_x(self, state: AppState, screen: Screen, size: tuple[int, int]) -> float:
-        return screen.point(0, _column(state.options.compare.divider, size)).x
+        return screen.point(0, round(state.options.compare.divider * size[0])).x
 
     def _draw_divider(self, host: Host, screen: Screen) -> None:
         """Draw a line between the images, with a handle in its middle, and a label on each side."""
@@ -243,29 +236,6 @@ def waiting(both: Renderers, state: AppState) -> str:
 
 def _made(raster: Frame, ray: Frame, channel: Channel, gain: float) -> tuple[Frame, Bytes]:
     return ray, difference_picture(raster, ray, channel, gain)
-
-
-def _image(both: Renderers, state: AppState, placement: Placement, is_ray: bool) -> Picture | None:
-    textures, request = both.textures, both.request(state)
-    assert textures is not None and request is not None
-    image_in = textures.ray_in if is_ray else textures.raster_in
-    return image_in(placement, request, look_of(state.images), COMPARED)
-
-
-def _values(both: Renderers, state: AppState, channel: str, region: Region) -> NDArray | None:
-    """Return the values of the visible pixels, each from the image on its side of the divider."""
-    raster = both.raster_values(state, channel, region)
-    ray = both.ray_values(state, channel, region)
-    if raster is None or ray is None:
-        return None
-    _, left, _, right = region
-    columns = np.arange(left, right) < _column(state.options.compare.divider, both.size)
-    return np.where(columns.reshape((1, -1) + (1,) * (raster.ndim - 2)), raster, ray)
-
-
-def _column(divider: float, size: tuple[int, int]) -> int:
-    """Return the first column of the second image."""
-    return round(divider * size[0])
 
 
 def _label(host: Host, screen: Screen, text: str, right: bool, end: float) -> None:

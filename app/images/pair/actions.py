@@ -14,19 +14,17 @@ from lucida.app.images.imaging import (
     CHANNELS,
     size_text,
     with_magnification,
-    with_pixel_size,
     with_resolution,
 )
 from lucida.app.images.pair.boxes import ask_pixel, ask_resolution
 from lucida.app.images.placement import magnification_text, step_from
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import MAGNIFICATIONS, PIXEL_SIZES, RESOLUTIONS, SAMPLES
+from lucida.app.state.options.shared import MAGNIFICATIONS, RESOLUTIONS, SAMPLES
 from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
-from lucida.renderer.camera.pixels import ENLARGEMENTS
 
 RESOLUTION, MAGNIFY = "Image/Resolution", "Image/Magnification"
-COUNTING, LENS = "Image/Rows and columns", "Image/Lens in the raster image"
+COUNTING = "Image/Rows and columns"
 
 
 def _step(steps: int) -> Callable[[Host], None]:
@@ -48,20 +46,12 @@ def _exposure(stops: float) -> Callable[[Host], None]:
     return changing(brighter)
 
 
-def _pixel_size(size: int) -> Action:
-    def is_on(state: AppState) -> bool:
-        return state.images.resolution is None and state.images.pixel_size == size
-
-    name = "Fit to window" if size == 1 else f"Window, pixels {size} x {size}"
-    change = changing(partial(with_pixel_size, pixel_size=size))
-    return Action(RESOLUTION, name, change, "Alt+W" if size == 1 else "", is_on=is_on)
-
-
-def _resolution(size: tuple[int, int]) -> Action:
+def _resolution(size: tuple[int, int] | None) -> Action:
     return Action(
         RESOLUTION,
-        size_text(size),
+        size_text(size) if size else "Fit to window",
         changing(partial(with_resolution, resolution=size)),
+        "" if size else "Alt+W",
         is_on=lambda state: state.images.resolution == size,
         separated=size == RESOLUTIONS[0],
     )
@@ -77,10 +67,6 @@ def _magnification(factor: float | None, name: str, keys: str, tip: str) -> Acti
         separated=factor == MAGNIFICATIONS[0],
         tip=tip,
     )
-
-
-def has_lens(window: Host) -> bool:
-    return window.state.camera.lens is not None
 
 
 SHOWN_CHANNEL = tuple(
@@ -101,8 +87,7 @@ SHOWN_COMPONENT = tuple(
     for component in ("red", "green", "blue")
 )
 SIZES = (
-    *map(_pixel_size, PIXEL_SIZES),
-    *map(_resolution, RESOLUTIONS),
+    *map(_resolution, (None, *RESOLUTIONS)),
     Action(
         RESOLUTION,
         "Custom size...",
@@ -122,17 +107,6 @@ SIZES = (
         )
         for count in SAMPLES
     ),
-)
-LENS_LOOKUP = tuple(
-    choosing(
-        LENS,
-        f"Lens: look up, {count} x {count} texels per pixel",
-        "images.lens_enlargement",
-        count,
-        can=has_lens,
-        tip="A pinhole image finds each pixel's primitive; its own ray shades it.",
-    )
-    for count in ENLARGEMENTS
 )
 FIT = _magnification(None, "Fit", "Alt+0", "All of the image in its window.")
 FACTORS = tuple(
@@ -170,7 +144,6 @@ IMAGE = (
     *SHOWN_CHANNEL,
     *SHOWN_COMPONENT,
     *SIZES,
-    *LENS_LOOKUP,
     FIT,
     Action(MAGNIFY, "Magnify", _step(1), "Alt++"),
     Action(MAGNIFY, "Reduce", _step(-1), "Alt+-"),

@@ -88,8 +88,8 @@ class ImageView(Instrument):
         """Draw an image into the rest of the window, and handle the mouse and the keys over it."""
         both, shared, guest = host.renderers, self.linked, self.linked.guest
         self._strip(host)
-        room_px, options = available_px(), host.state.images
-        both.fit_pane(self.name, room_px, options, ruler_sizes(options))
+        room_px = available_px()
+        both.fit_pane(self.name, room_px, host.state, ruler_sizes(host.state.images))
         room_px = both.common_room(room_px)
         self._keep_mark(host)
         start, avail = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()

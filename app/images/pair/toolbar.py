@@ -9,11 +9,10 @@ from collections.abc import Callable
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.images.imaging import CHANNELS, lens_text, resolution_text
+from lucida.app.images.imaging import CHANNELS, resolution_text
 from lucida.app.images.pair.actions import (
     FACTORS,
     FIT,
-    LENS_LOOKUP,
     LINEAR,
     PIXELS,
     SHOWN_CHANNEL,
@@ -68,12 +67,6 @@ PARTS: tuple[tuple[str, Callable[[AppState], str], str, tuple[Action, ...]], ...
         (),
     ),
     (
-        "lens",
-        lens_text,
-        "How a rasterizer, which has no matrix for a lens, draws its image.",
-        LENS_LOOKUP,
-    ),
-    (
         "resolution",
         lambda state: resolution_text(state.images),
         "How many pixels both images have: as many as fit the window, or a fixed number.",
@@ -99,7 +92,7 @@ def image_strip(view: str, host: Host) -> None:
     imgui.get_window_draw_list().add_rect_filled(start, far, theme.u32(theme.PANEL))
     for place, (name, label, tooltip, actions) in enumerate(PARTS):
         text = label(host.state)
-        if not text or (name == "lens" and view != "Raster"):
+        if not text:
             continue
         width = imgui.calc_text_size(text).x + 2 * PADDING.x + ARROW * imgui.get_font_size()
         if width > room:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import ClassVar
 
 import moderngl
@@ -112,7 +113,7 @@ class RasterView(PairView):
 
     def draw(self, host: Host) -> None:
         both = host.renderers
-        self._pane(host, Pane(both.raster_picture, both.raster_values, both.raster_error))
+        self._pane(host, Pane(partial(both.picture, False), both.raster_values, both.raster_error))
 
 
 class RayView(PairView):
@@ -125,6 +126,6 @@ class RayView(PairView):
 
     def draw(self, host: Host) -> None:
         both = host.renderers
-        pane = Pane(both.ray_picture, both.ray_values, both.ray_error, both.preparing())
+        pane = Pane(partial(both.picture, True), both.ray_values, both.ray_error, both.preparing())
         self._pane(host, pane)
         both.trace(host.state)

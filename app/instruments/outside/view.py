@@ -305,7 +305,7 @@ class OutsideView(Instrument):
             content = replace(content, pointed=_pointed(content, scope))
         return self._drawn(
             tools, ground, content, near, units, extensions.items, extensions.cloud, picture,
-            state.images.exposure_ev, (live and live.number, state.images, theme.used()),
+            state.images.exposure_ev, (live, state.images, theme.used()),
             moves or ground.factor > 1 or both.unfinished(state),
         )  # fmt: skip
 

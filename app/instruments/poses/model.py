@@ -121,7 +121,7 @@ class PoseSet:
         return words + (f", {points:,} points" if points else "")
 
     def view(self, number: int) -> View:
-        """Return the view of a camera. Images of other proportions show more, never less."""
+        """Return the view of a camera. Images of other resolutions show more, never less."""
         posed = self.cameras[number]
         return View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
 

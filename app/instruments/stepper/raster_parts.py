@@ -31,6 +31,7 @@ from lucida.renderer.scene.sampling import are_passed
 
 FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on
 ROUNDING_PX = 1e-6  # a centre that lies on the edge counts
+WHOLE = np.eye(3)  # the shares of a triangle's own corners
 
 
 class Corner(NamedTuple):
@@ -59,7 +60,7 @@ class Triangle:
 
     @property
     def is_whole(self) -> bool:
-        return bool((self.shares == np.eye(3)).all())
+        return bool((self.shares == WHOLE).all())
 
     def weights(self, ea: float, eb: float, ec: float) -> Floats:
         """Return the corners' shares in a point that is given by its edge functions. In perspective
@@ -100,8 +101,13 @@ def triangles(scene: Model, camera: Camera) -> Iterator[Triangle]:
         t_min = camera.t_range[0]
         if not camera.is_parallel:
             t_min = max(t_min, NEAREST * float(t.max(initial=0.0)))  # where 1/t is still a number
-        for number in np.flatnonzero((t > t_min).any(axis=1)).tolist():
+        is_ahead = t > t_min
+        is_whole = is_ahead.all(axis=1).tolist()
+        for number in np.flatnonzero(is_ahead.any(axis=1)).tolist():
             points = object.vertices[object.faces[number]]
+            if is_whole[number]:
+                yield Triangle(scene, camera, object, first + number, points, WHOLE)
+                continue
             rest = _clipped(np.column_stack([points, np.eye(3), t[number]]), t_min)
             for k in range(1, len(rest) - 1):  # a fan around the first corner
                 fan = np.array([rest[0], rest[k], rest[k + 1]])
@@ -134,8 +140,9 @@ def box_around(a: Corner, b: Corner, c: Corner, size: Size) -> tuple[range, rang
 
 def _centres_within(low: float, high: float, count: int) -> range:
     """Return the pixels, of 0 to count - 1, whose centres are between two places."""
-    ends = np.clip((low - 0.5 - ROUNDING_PX, high + 0.5 + ROUNDING_PX), 0, count)
-    return range(math.ceil(ends[0]), math.floor(ends[1]))
+    first = min(max(low - 0.5 - ROUNDING_PX, 0), count)
+    end = min(max(high + 0.5 + ROUNDING_PX, 0), count)
+    return range(math.ceil(first), math.floor(end))
 
 
 def edge(a: Sequence[float], b: Sequence[float], q: Sequence[float]) -> float:

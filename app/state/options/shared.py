@@ -19,7 +19,6 @@ Index = Annotated[int, Range(0, LARGEST_SIDE - 1)]
 Pixel = tuple[Index, Index]  # (row, column), 0-based, row 0 at the top
 Part = Annotated[float, Range(0, 1)]  # of a width or height
 
-PIXEL_SIZES = (1, 2, 4, 8, 16, 32)
 RESOLUTIONS = (
     *((16, 9), (64, 36), (160, 90), (320, 180), (640, 360), (1280, 720), (1920, 1080)),
     *((3840, 2160), (4096, 2160), (4, 3), (16, 16), (64, 64), (256, 256), (512, 512)),
@@ -46,7 +45,7 @@ class ImageOptions(OptionPart):
 
     exposure_ev: the display's brightness, in stops. transfer: how light becomes a display value.
     component: all of a colour, or one of its channels. resolution: (width, height) of both images,
-    None for what fits the window at pixel_size screen pixels per side of an image's pixel.
+    None for as many pixels as the window has.
     magnification: screen pixels per side of an image's pixel if the user has zoomed into the
     pixels, None to fit the whole image into its window; center: the centre of the view then, as a
     fraction of the image's width and height. grid: draw lines between pixels, and their numbers,
@@ -61,7 +60,6 @@ class ImageOptions(OptionPart):
     component: Component = "rgb"
     transfer: Transfer = "srgb"
     exposure_ev: Annotated[float, Range(-8, 8)] = 0.0
-    pixel_size: Annotated[int, OneOf(PIXEL_SIZES)] = 1
     resolution: Annotated[tuple[int, int], Accepted(check_size)] | None = None
     magnification: Annotated[float, Range(1 / 64, 128)] | None = None
     center: tuple[Part, Part] = (0.5, 0.5)

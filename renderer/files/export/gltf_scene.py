@@ -18,7 +18,7 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras.gltf import camera_table, node_matrix
 from lucida.renderer.files.cameras.rigid import rigid
 from lucida.renderer.files.export.glb_tree import GlbTree
-from lucida.renderer.files.export.meshes import Triangles, triangles_of
+from lucida.renderer.files.export.meshes import Triangles, exported_triangles
 from lucida.renderer.files.models.gltf_materials import WRAP_NAMES
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.scene.framing import median_distance
@@ -81,7 +81,7 @@ def _object_node(made: GlbTree, number: int, entry: SceneObject, left: list[str]
     texture = None if isinstance(shape, Sphere) else material.image
     if isinstance(shape, Sphere):
         left.append("spheres: glTF has triangles only")
-    found = triangles_of(shape, not material.single_sided)
+    found = exported_triangles(shape, not material.single_sided)
     if texture is not None:
         found = _with_uv(found, texture)
     table = _material(made, material, texture, name, left)

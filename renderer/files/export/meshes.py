@@ -34,7 +34,7 @@ class Triangles(NamedTuple):
     uv: F32 | None = None
 
 
-def triangles_of(shape: Shape, turns: bool) -> Triangles:
+def exported_triangles(shape: Shape, turns: bool) -> Triangles:
     """Return a shape's triangles, which wind about their normals.
 
     turns: False if the winding decides which side is visible, and must stay.

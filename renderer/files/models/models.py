@@ -29,7 +29,7 @@ from lucida.renderer.scene.model import (
     Scene,
     SceneObject,
     is_flat,
-    triangles_of,
+    triangle_count,
     without_metal,
 )
 from lucida.renderer.system.cancelling import check_cancelled, during
@@ -101,7 +101,7 @@ def read_model(path: Path) -> ModelFile:
         if not objects:
             raise LucidaError("", "holds no triangle with an area", "give a model with a surface")
         check_count(len(objects), OBJECTS, "objects")
-        check_count(triangles_of(objects), TRIANGLES, "triangles")
+        check_count(triangle_count(objects), TRIANGLES, "triangles")
     notes = tuple(f"{path}: {note}" for note in images.notes)
     return ModelFile(tuple(objects), views, notes, lights)
 

@@ -12,20 +12,18 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from lucida.app.cameras.reader import MOST_CHARACTERS
-from lucida.app.cameras.text import Form, as_text
+from lucida.app.cameras.text import as_text
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 
 ROOT = Path(__file__).parents[3]
 
 
-@pytest.mark.parametrize("form", ["view file", "command line"])
 @given(view=views | lens_views())
 @example(view=View(Camera(eye=(-1e-9, 1e-300, -0.0), near=1e-7)))
-def test_what_is_copied_comes_back_exactly(form: Form, view: View) -> None:
-    assert read_view(as_text(form, subject(view)), NOW) == view
+def test_what_is_copied_comes_back_exactly(view: View) -> None:
+    assert read_view(as_text("view file", subject(view)), NOW) == view
 
 
 @given(views | lens_views())
@@ -39,17 +37,11 @@ def test_the_python_runs_as_it_is(view: View) -> None:
 @pytest.mark.parametrize(
     ("text", "camera"),
     [
-        ("--lens equisolid", replace(NOW.camera, lens=Lens("equisolid"))),
         (
             "[camera]\neye = [0, 0, 5]\ntarget = [0, 0, 0]\nfov_y_deg = 40",
             Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40),
         ),
         ("[camera]\neye = [0, 0, 5]", Camera((0, 0, 5))),
-        ("--eye=0,0,5", replace(NOW.camera, eye=(0, 0, 5))),
-        (
-            "lucida spheres --eye 0,0,5 --distance 3 # mine",
-            replace(NOW.camera, eye=(0, 0, 5), distance=3),
-        ),
     ],
 )
 def test_near_relatives_are_read(text: str, camera: Camera) -> None:
@@ -88,9 +80,6 @@ def test_of_a_whole_scene_file_the_camera_is_read(camera: str, view: View) -> No
         ("x" * (MOST_CHARACTERS + 1), "long text"),
         ("[camera]\neye = [0, 0]", "camera.eye"),
         ("[camera]\nw = [0, 0, 0]", "camera.w: .*independent"),
-        ("--eye=0,0", "is not 3 numbers"),
-        ("--distance=-1", "--distance: -1 is not above 0"),
-        ('--eye="0,0', "is not 3 numbers"),
         ("camera_from_world = [1, 2, 3]", "has 3 numbers; give 16"),
         (
             "camera_from_world = " + "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1",
@@ -116,8 +105,6 @@ def test_what_is_no_camera_is_told_in_one_line(text: str, told: str) -> None:
 @given(st.text(max_size=200))
 @example("camera_from_world=[" + "nan," * 16 + "]")
 @example("[camera]\n" + "a" * 100)
-@example("--fit --eye=inf,0,0")
-@example("--help --eye=0,0,1")
 def test_any_text_is_a_camera_or_one_error(text: str) -> None:
     try:
         view = read_view(text, NOW)
@@ -129,7 +116,7 @@ def test_any_text_is_a_camera_or_one_error(text: str) -> None:
 
 
 def test_a_text_has_up_to_a_hundred_thousand_characters() -> None:
-    text = "--eye 1,2,3".ljust(MOST_CHARACTERS)
+    text = "[camera]\neye = [1, 2, 3]".ljust(MOST_CHARACTERS)
     assert read_view(text, NOW).camera.eye == (1.0, 2.0, 3.0)
     with pytest.raises(LucidaError, match="a long text"):
         read_view(text + " ", NOW)

@@ -52,7 +52,6 @@ def test_the_conventions_that_were_taken_are_said() -> None:
     assert "OpenCV's K, R and t" in said
     assert "whole numbers stand at the pixels' centres" in said
     assert "80" not in said or "middle is the principal point" in said
-    assert read_copied("--eye=0,0,5", NOW).said.endswith("clipboard: a command line.")
 
 
 def test_a_camera_of_square_pixels_is_seen_unstretched_and_another_as_it_is() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from copied_views import NOW, SIZE, read_view
 
-from lucida.app.cameras.other_words import other_words
+from lucida.app.cameras.other_words import of_any_size, other_words
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.intrinsics import PixelOrigin
 from lucida.renderer.scene.model import View
@@ -81,3 +81,12 @@ def test_k_stands_as_it_was_pasted_and_beside_it_what_this_image_has() -> None:
 def test_a_parallel_camera_has_none() -> None:
     with pytest.raises(LucidaError, match="no focal length"):
         other_words(View(Camera(projection="parallel")), SIZE, "center")
+
+
+@pytest.mark.parametrize("origin", ORIGINS)
+def test_k_of_any_size_is_a_formula(origin: PixelOrigin) -> None:
+    camera = Camera(v=(0.1, 1, 0), viewport=(-0.4, 0.6, -0.3, 0.5), distance=1.7)
+    formula = of_any_size(camera, origin)
+    for W, H in ((640, 480), (1920, 1080)):
+        K = eval(formula.replace(" W", "*W").replace(" H", "*H"))
+        assert np.allclose(K, camera.intrinsics((W, H), origin).K, rtol=1e-6)

@@ -38,6 +38,7 @@ def test_a_pixel_is_the_image_s(capsys, image):
     assert seen["normal"] == frame.normal[PIXEL].tolist()
     assert seen["color"] == frame.color[PIXEL].tolist()
     ray = camera.ray(*PIXEL, SIZE)
+    assert np.isclose(seen["z"], camera.z_from_t(frame.depth, SIZE)[PIXEL])
     assert np.allclose(seen["point"], ray.origin + frame.depth[PIXEL] * ray.direction)
     assert seen["ray"]["direction"] == ray.direction.tolist()
     assert (seen["pixel"], seen["pixels_from"], seen["size"]) == ([20, 30], 0, [64, 36])
@@ -68,7 +69,7 @@ def test_the_text_has_every_quantity_and_says_from_where(capsys):
     assert main(["pick", "spheres", "21", "31", "--from", "1", "--size", "64x36"]) == 0
     lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines()[:6])
     assert lines["pixel"] == "row 21, column 31 of 64x36, from 1 (ray)"
-    assert list(lines) == ["pixel", "object", "t", "point", "normal", "color"]
+    assert list(lines) == ["pixel", "object", "t", "z", "point", "normal"]
 
 
 def test_a_pixel_outside_of_the_lens_has_no_ray(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import select
 import signal
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
+from lucida.app.cameras.films.frames import Drawing, Look, Shot
 from lucida.app.cli import main
+from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files import load_scene, save_view
 from lucida.renderer.images import ENDINGS, to_srgb8
 from lucida.renderer.scene.model import View
@@ -64,7 +68,7 @@ class TestRender:
         assert not normal[~hit].any()
 
     @pytest.mark.parametrize("ending", ENDINGS)
-    @pytest.mark.parametrize("channel", ["color", "depth", "normal", "id"])
+    @pytest.mark.parametrize("channel", ["color", "depth", "z", "normal", "id"])
     def test_every_channel_goes_into_every_format(self, capsys, ending, channel):
         name = f"a{ending}"
         arguments = ["render", "spheres", "-o", name, "--renderer", "ray", "--channel", channel]
@@ -73,6 +77,25 @@ class TestRender:
         assert told.out.startswith(f"{name}: {channel}, ray, 32x18, ")
         assert not told.err
         assert os.listdir() == [name]
+
+    @pytest.mark.parametrize("lens", [(), ("--lens", "equidistant")])
+    def test_z_is_the_distance_along_the_view_also_in_parts(self, lens):
+        scene, size = load_scene("spheres"), (32, 18)
+        t = drawn("t", "--channel", "depth", *lens)
+        z = drawn("z", "--channel", "z", *lens)
+        camera = scene.view.for_size(size)
+        if lens:
+            camera = replace(camera, lens=Lens("equidistant"))
+        origin, direction = camera.rays(size)
+        hit = np.isfinite(t)
+        points = origin[hit] + t[hit][:, None] * direction[hit]
+        from_eye = (points - camera.eye) @ np.asarray(camera.w)  # w is a unit vector
+        np.testing.assert_allclose(z[hit], -from_eye, rtol=1e-5)
+        assert hit.any() and np.isposinf(z[~hit]).all()
+        drawing = Drawing(scene, Look("ray", channel="z", ending=".npy"))
+        part = np.load(io.BytesIO(drawing.encoded(Shot(camera, size, (5, 11)))))
+        drawing.close()
+        np.testing.assert_allclose(part, z[5:11], rtol=1e-5)
 
     @pytest.mark.skipif(sys.platform != "linux", reason="other systems refuse such names")
     def test_a_name_that_is_no_text(self, capsys):

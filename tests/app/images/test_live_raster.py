@@ -139,12 +139,12 @@ class Window:
         request = self.both.request(self.state)
         assert request is not None and self.both.textures is not None
         place = whole(SIZE)
-        assert self.both.raster_picture(self.state, place) is not None
+        assert self.both.picture(False, self.state, place) is not None
         raster = self.both.textures.raster.image
         assert raster is not None
         ray = None
         if has_ray:
-            if self.both.ray_picture(self.state, place) is not None:
+            if self.both.picture(True, self.state, place) is not None:
                 ray = self.both.shown_ray(self.state)
                 assert ray is not None
             self.both.trace(self.state)

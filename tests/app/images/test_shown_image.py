@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from lucida.app.images.placement import Placement
-from lucida.app.images.shown import DepthBounds, ShownImage, whole
+from lucida.app.images.shown import DepthBounds, Pictures, whole
 from lucida.renderer.raster.display import Look
 from lucida.renderer.raster.resources import Owner, new_texture
 
@@ -45,9 +45,8 @@ def test_whatever_changes_the_picture_is_that_of_a_new_one(gl):
         return {"color": light, "depth": surface, "normal": surface, "id": texture(SIZE, ids)}
 
     bounds = texture((1, 1), np.array([[[0.1, 0.9]]], np.float32))
-    shown, seen = ShownImage(gl), set()
-    current = channels()
-    shown.set_channels(current)
+    shown, seen = Pictures(gl), set()
+    current, content = channels(), 0
     given = {"look": LOOKS[0], "placement": PLACEMENTS[0]}
     depths = DepthBounds(bounds)
     for step in range(120):
@@ -59,13 +58,14 @@ def test_whatever_changes_the_picture_is_that_of_a_new_one(gl):
         elif kind == "channels":  # the same textures, with another image in them
             for name, made in channels().items():
                 current[name].write(made.read())
-            shown.set_channels(current)
+            content += 1
         else:
             bounds.write(np.sort(rng.random(2)).astype(np.float32))
             depths = DepthBounds(bounds)
+        given["source"] = current[given["look"].channel], content
         one = shown.picture("kept", depths=depths, **given)
         new = shown.picture(f"new {step}", depths=depths, **given)
-        assert one is not None and new is not None and one.texture.size == new.texture.size
+        assert one.texture.size == new.texture.size
         assert one.texture.read() == new.texture.read(), (step, kind, given)
         again = shown.picture("kept", depths=depths, **given)
         assert again.texture is one.texture and again.made is one.made

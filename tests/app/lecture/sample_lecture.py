@@ -26,7 +26,7 @@ A **bold** word and $u = 1$.
 scene = "ball"
 camera = { eye = [0, 0, 5] }
 views = ["outside", "ray"]
-options.images.pixel_size = 8
+options.images.samples = 4
 options.images.channel = "depth"
 options.outside.bundle = [4, 4]
 options.outside.camera = { eye = [5, 5, 5], target = [0, 0, 0] }

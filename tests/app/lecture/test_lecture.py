@@ -26,7 +26,7 @@ def test_a_whole_file():
     assert one.view.camera == Camera(eye=(0, 0, 5))
     assert one.views == ("outside", "ray")
     assert one.pixel == (1, 2)  # row 2, column 3
-    assert one.changes["images"] == {"pixel_size": 8, "channel": "depth"}
+    assert one.changes["images"] == {"samples": 4, "channel": "depth"}
     assert one.changes["outside"]["bundle"] == (4, 4)
     assert one.changes["outside"]["camera"] == Camera.look_at((5, 5, 5), (0, 0, 0))
     assert isinstance(one.exercise, RayExercise)
@@ -106,7 +106,7 @@ def test_scenes_and_views_beside_the_file(tmp_path):
         ('"outside", "', '"stepper", "probe", "', 21, "views: names 3; give one or two"),
         ('"outside", "ray"]', '"ray", "ray"]', 21, "views: names one twice"),
         ("[2, 3]", "[0, 3]", 27, "pixel: [0, 3] is no pixel; give row and column, from 1"),
-        ("pixel_size = 8", "resolution = [2, 9]", 27, "pixel: [2, 3] is not in an image"),
+        ("samples = 4", "resolution = [2, 9]", 27, "pixel: [2, 3] is not in an image"),
         ('title = "One"', 'titel = "One"', 11, "titel: is unknown; did you mean 'title'?"),
         ('title = "Two"', "", 36, "title: is missing; give it"),
         ('title = "Two"', 'title = " "', 37, "title: is empty"),

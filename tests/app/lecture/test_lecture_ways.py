@@ -19,7 +19,7 @@ def spoiled(state):
         state,
         marked=(1, 2),
         shadows=not state.options.shadows,
-        images={"resolution": None, "pixel_size": 4, "exposure_ev": 2.0, "channel": "depth"},
+        images={"resolution": None, "samples": 4, "exposure_ev": 2.0, "channel": "depth"},
         outside={"bundle": (2, 2), "volume": False, "camera": state.camera},
         stepper={"steps": (3, 3), "canvas": (4, 3)},
         laboratory={"page": "array", "progress": 3.0},

@@ -22,7 +22,7 @@ def state(scene):
     marks = (Bookmark(1, "a 'name' with \" and é", view), Bookmark(9, "far", scene.view))
     return with_options(
         AppState.for_scene(scene, view),
-        images={"exposure_ev": 1.5, "pixel_size": 4, "resolution": (16, 9)},
+        images={"exposure_ev": 1.5, "samples": 4, "resolution": (16, 9)},
         compare={"mode": "wipe"},
         outside={"camera": Camera((9, 9, 9)), "bundle": (3, 4)},
         preferences={"theme": "light", "font_scale": 1.25},

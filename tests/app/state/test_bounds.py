@@ -34,7 +34,7 @@ from lucida.renderer.system.errors import LucidaError
 # part, field, value, where the error is, what it says
 WRONG = [
     ("images", "exposure_ev", 8.5, "", "8.5 is out of range; give -8 to 8"),
-    ("images", "pixel_size", 3, "", "3 is not possible; give one of 1, 2, 4, 8, 16, 32"),
+    ("images", "samples", 3, "", "3 is not possible; give one of 1, 4, 16, 64"),
     ("images", "resolution", [0, 5], "", "0x5 has no pixels"),
     ("images", "resolution", [16384, 16384], "", "16384x16384 is too large"),
     ("images", "magnification", 0.0, "", "0 is out of range; give 0.015625 to 128"),
@@ -104,7 +104,7 @@ def test_what_a_key_or_a_field_asks_for_comes_within_bounds(state, part, field, 
 def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
     changed = with_options(
         state,
-        images={"exposure_ev": 100.0, "pixel_size": 7, "center": (-3.0, 0.25), "grid": False},
+        images={"exposure_ev": 100.0, "samples": 14, "center": (-3.0, 0.25), "grid": False},
         compare={"gain": math.nan},
         laboratory={"progress": 9.0, "phase": math.nan},
         stepper={"canvas": (16, 49)},
@@ -112,7 +112,7 @@ def test_clamping_takes_the_nearest_and_leaves_the_rest(state):
         probe={"pins": tuple((k, k) for k in range(300))},
     )
     assert changed.images == replace(
-        ImageOptions(), exposure_ev=8.0, pixel_size=8, center=(0.0, 0.25), grid=False
+        ImageOptions(), exposure_ev=8.0, samples=16, center=(0.0, 0.25), grid=False
     )
     assert changed.options.compare == CompareOptions(gain=1.0)
     assert changed.options.laboratory == LaboratoryOptions(progress=4.0)

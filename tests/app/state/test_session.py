@@ -102,9 +102,9 @@ def test_of_a_scene_from_no_file_the_first_built_in_one_is_kept(scene, tmp_path)
 def test_what_an_older_session_lacks_has_its_default(state):
     data = to_bytes(session_of(state, ARRANGEMENT))
     table = json.loads(data)
-    del table["options"]["compare"], table["arrangement"], table["options"]["images"]["pixel_size"]
+    del table["options"]["compare"], table["arrangement"], table["options"]["images"]["samples"]
     read = from_bytes(json.dumps(table).encode())
-    assert read.options.images.pixel_size == 1
+    assert read.options.images.samples == 1
     assert read.options.images.exposure_ev == 1.5
     assert read.arrangement == Arrangement()
     del table["keep_orthonormal"]

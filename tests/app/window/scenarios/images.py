@@ -11,23 +11,23 @@ from lucida.renderer.raster import Display
 
 
 def drive_pixels_can_be_large_and_are_marked(d):
-    before = d.renderers.size
-    d.menu("Image/Resolution/Window, pixels 8 x 8")
+    d.menu("Image/Resolution/64 x 36")
     d.press(Key.mod_alt | Key.x)  # without the pixel grid
     d.settle()
-    assert d.renderers.size == (before[0] // 8, before[1] // 8)
+    assert d.renderers.size == (64, 36)
     raster, ray = d.images()
-    assert raster.shape[:2] == (8 * d.renderers.size[1], 8 * d.renderers.size[0])
-    blocks = raster.reshape(d.renderers.size[1], 8, d.renderers.size[0], 8, 3)
+    side = raster.shape[0] // 36
+    assert side > 4 and raster.shape[:2] == (36 * side, 64 * side)
+    blocks = raster.reshape(36, side, 64, side, 3)
     assert (blocks == blocks[:, :1, :, :1]).all()  # nearest neighbour: no pixel is blurred
     x, y, *_ = d.rect(RASTER)
-    d.move_to((x + 8 * 20 + 4, y + 8 * 30 + 4))
+    d.move_to((x + side * 20 + side // 2, y + side * 30 + side // 2))
     assert d.window.hovered == (RASTER, (30, 20))
     d.stay = True
     marked = d.images()[1]
     places = np.argwhere(np.abs(marked - ray).max(axis=2) > 8)
-    assert places.min(axis=0).tolist() == [8 * 30 - 2, 8 * 20 - 2]
-    assert places.max(axis=0).tolist() == [8 * 31 + 1, 8 * 21 + 1]
+    assert places.min(axis=0).tolist() == [side * 30 - 2, side * 20 - 2]
+    assert places.max(axis=0).tolist() == [side * 31 + 1, side * 21 + 1]
 
 
 def drive_windows_can_be_hidden(d):

@@ -113,6 +113,8 @@ def drive_cameras_are_taken_by_click_key_and_double_click(d):
     d.click(f"{WINDOW}/**/###3")
     d.settle()
     assert chosen(d) == 3 and stands_at(d, poses, 3)
+    width, height = d.renderers.size
+    assert abs(width - 4 / 3 * height) < 1, "the photographs' shape"
     assert d.steps == steps + 1
     (lines,) = strokes(d, "other pose")[:1]
     assert len(lines.points)

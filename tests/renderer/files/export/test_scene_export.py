@@ -13,7 +13,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.files.cameras import read_cameras
 from lucida.renderer.files.export import export_scene
-from lucida.renderer.files.export.meshes import triangles_of
+from lucida.renderer.files.export.meshes import exported_triangles
 from lucida.renderer.scene import Scene
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import DirectionalLight, Mesh, SceneObject, Sphere
@@ -97,16 +97,16 @@ def test_a_glb_holds_lights_camera_and_what_is_left_out(tmp_path: Path):
 def test_flat_faces_among_smooth_ones_get_their_own_normals():
     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], np.float32)
     normals = np.array([[0, 0, 1], [0, 0.6, 0.8], [0, 0, 1], [0, 0, 0]], np.float32)
-    found = triangles_of(Mesh(vertices, np.array([[0, 1, 2], [1, 3, 2]]), normals), True)
+    found = exported_triangles(Mesh(vertices, np.array([[0, 1, 2], [1, 3, 2]]), normals), True)
     assert found.normals is not None
     np.testing.assert_array_equal(found.normals[:3], normals[:3])
     np.testing.assert_allclose(found.normals[3:], [[0, 0, 1]] * 3)
-    turned = triangles_of(Mesh(vertices[:3], np.array([[2, 1, 0]]), normals[:3]), True)
+    turned = exported_triangles(Mesh(vertices[:3], np.array([[2, 1, 0]]), normals[:3]), True)
     np.testing.assert_array_equal(turned.faces, [[0, 1, 2]])
 
 
 def test_the_sphere_of_triangles_is_closed_and_faces_outward():
-    sphere = triangles_of(Sphere((1, 2, 3), 1.0), True)
+    sphere = exported_triangles(Sphere((1, 2, 3), 1.0), True)
     joined = np.unique(sphere.vertices.round(5) + 0, axis=0, return_inverse=True)[1].reshape(-1)
     edges = np.sort(joined[sphere.faces][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
     _, counts = np.unique(edges, axis=0, return_counts=True)
