@@ -85,12 +85,14 @@ class Host(Protocol):
     renderers: both images of the current state.
     files: opening and saving. shell: the parts around the views.
     moves: True if things may move by themselves; False while a picture of the window is taken.
+    is_rearranging: True until all views have their places, after which sizes are final.
     box: asks for an entry; None if nothing does.
     """
 
     fonts: Fonts
     renderers: Renderers
     moves: bool
+    is_rearranging: bool
     box: Box | None
 
     @property
