@@ -29,10 +29,11 @@ settings.load_profile("lucida")
 
 def pytest_sessionstart(session):
     """Compile the tracer into the cache: or the first test that traces would wait for it, and hear
-    of it. Before several processes begin, all of it: or each of them would compile the same. Not
+    of it. Before several processes run all tests, all of it: or each would compile the same. Not
     where a few tests run on their own, for another processor."""
     if not hasattr(session.config, "workerinput") and "NUMBA_CPU_NAME" not in os.environ:
-        if session.config.getoption("numprocesses", None):
+        is_whole = session.config.args_source is pytest.Config.ArgsSource.TESTPATHS
+        if is_whole and session.config.getoption("numprocesses", None):
             of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
         scene = load_scene(BUILTIN_SCENES[0])

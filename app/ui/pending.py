@@ -19,7 +19,7 @@ def here() -> None:
     _place[:] = [imgui.get_item_rect_min().y]
 
 
-def note(name: str, text: str, button: str) -> bool:
+def note(text: str, button: str) -> bool:
     """Draw the note next to the current window, at the height of the wrong field. Return True if
     its button was clicked.
 
@@ -37,6 +37,6 @@ def note(name: str, text: str, button: str) -> bool:
     else:
         place, pivot = ImVec2(at.x, at.y + size.y), (0, 1)
     flags = imgui.WindowFlags_.no_focus_on_appearing | imgui.WindowFlags_.no_nav_focus
-    with overlay(f"###pending {name}", place, pivot, wide, theme.ERROR, int(flags)):
+    with overlay("###pending", place, pivot, wide, theme.ERROR, int(flags)):
         wrapped(text, theme.legible(theme.ERROR))
         return bool(imgui.button(button))

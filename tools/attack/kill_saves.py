@@ -45,7 +45,7 @@ SIDE = 64
 def main(argv: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(prog="kill_saves", description=__doc__.splitlines()[0])
     parser.add_argument("--times", type=int, default=1000, metavar="N", help="kills (default 1000)")
-    parser.add_argument("--seed", type=int, default=0, help="of the random times")
+    parser.add_argument("--seed", type=int, help="of the random times; a random one by default")
     parser.add_argument(
         "--minutes", type=float, default=math.inf, help="no further kill after that"
     )
@@ -54,7 +54,9 @@ def main(argv: Sequence[str]) -> int:
         print("kill_saves: needs fork", file=sys.stderr)
         return 2
     with tempfile.TemporaryDirectory(prefix="lucida-attack-") as folder:
-        chance = random.Random(arguments.seed)
+        seed = random.randrange(1 << 20) if arguments.seed is None else arguments.seed
+        print(f"kill_saves: seed {seed}", flush=True)
+        chance = random.Random(seed)
         return attack(Path(folder), arguments.times, chance, arguments.minutes)
 
 

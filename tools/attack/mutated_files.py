@@ -280,19 +280,21 @@ def attack(folder: Path, options: argparse.Namespace) -> int:
 def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--files", type=int, default=6000, help="how many (default: 6000)")
-    parser.add_argument("--seed", type=int, default=1, help="of the mutations (default: 1)")
+    parser.add_argument("--seed", type=int, help="a random one where none is given")
     parser.add_argument(
         "--minutes", type=float, default=math.inf, help="no further file after that"
     )
     parser.add_argument("--keep", type=Path, help="a folder for the files that go wrong")
     options = parser.parse_args(argv)
+    options.seed = random.randrange(1 << 20) if options.seed is None else options.seed
+    _say(f"mutated_files: seed {options.seed}")
     if options.keep is not None:
         options.keep.mkdir(parents=True, exist_ok=True)
         return min(1, attack(options.keep, options))
     with tempfile.TemporaryDirectory(prefix="lucida-attack-") as folder:
         wrong = attack(Path(folder), options)
         if wrong:
-            print("once more with --keep FOLDER to have the files")
+            print(f"once more with --seed {options.seed} --keep FOLDER to have the files")
         return min(1, wrong)
 
 

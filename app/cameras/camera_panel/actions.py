@@ -14,13 +14,14 @@ from imgui_bundle import imgui
 
 from lucida.app.cameras.lens_choices import LENS_PRESETS, LensPreset
 from lucida.app.cameras.meanings import Meaning, matrix_in, meanings
-from lucida.app.cameras.presets import PRESETS, Preset, framed, preset_view
+from lucida.app.cameras.presets import PRESETS, Preset, framed, look_at, preset_view
 from lucida.app.cameras.reader import read_copied
 from lucida.app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
 from lucida.app.state.app_state import AppState, is_orthonormal
 from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import switched_projection
 from lucida.renderer.scene.model import View
@@ -73,6 +74,16 @@ def go_home(window: Host) -> None:
 def go_to_view(window: Host, view: View) -> None:
     """Move to a view from the scene's file, as an undo step."""
     window.travel(with_its_basis(window.state.with_view(view)))
+
+
+def look_there(window: Host, target: Vector, up: Vector) -> None:
+    """Turn the camera towards a point."""
+    try:
+        view = look_at(window.state.view, window.state.camera.eye, target, up)
+    except LucidaError as error:
+        window.files.message = str(error)
+        return
+    go_to_view(window, view)
 
 
 def go_to_canonical(window: Host) -> None:

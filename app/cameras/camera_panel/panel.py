@@ -75,7 +75,7 @@ def _panel(
     draft, wish = draft.following(state.camera), wanted or wish
     if draft.error is not None:
         leaves = wish is not None and wish.leaves
-        if pending.note("camera", str(draft.error), "Back to the camera shown") or leaves:
+        if pending.note(str(draft.error), "Back to the camera shown") or leaves:
             draft = Draft.of(draft.camera)
     return state, PanelOutcome(draft, sections, wish)
 

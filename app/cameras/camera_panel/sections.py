@@ -12,12 +12,11 @@ from typing import Any, NamedTuple
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.camera_panel.actions import go_to_view
+from lucida.app.cameras.camera_panel.actions import look_there
 from lucida.app.cameras.camera_panel.projection import PanelContext
 from lucida.app.cameras.other_words import TOLD, other_words
-from lucida.app.cameras.presets import look_at
 from lucida.app.state.app_state import AppState
-from lucida.app.ui import pending, rows, theme
+from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import radio_button
 from lucida.app.ui.fields import Scale
 from lucida.app.ui.host import Host
@@ -43,7 +42,6 @@ class LookAt:
 
     target: Vector | None = None
     up: Vector = (0.0, 1.0, 0.0)
-    error: LucidaError | None = None
 
 
 @dataclass(frozen=True)
@@ -87,26 +85,18 @@ def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[L
                 thirds.field_px,
                 Scale(-reach, reach),
                 note,
-                wrong=look.error is not None and look.error.field == name,
                 reset=(0.0, 1.0, 0.0)[axis] if name == "up" else None,
             )
             if changed:
                 entered: dict[str, Any] = {name: (*now[name][:axis], value, *now[name][axis + 1 :])}
-                look = replace(look, error=None, **entered)
+                look = replace(look, **entered)
     wish = None
     if imgui.button("Look there", (-1, 0)):
-        try:
-            view = look_at(state.view, state.camera.eye, now["target"], now["up"])
-            wish = Wish(partial(go_to_view, view=view))
-            look = replace(look, error=None)
-        except LucidaError as error:
-            look = replace(look, error=error)
+        wish = Wish(partial(look_there, target=now["target"], up=now["up"]))
     rows.tip(
         "w = from target to eye, of length 1;  u = up x w, of length 1;  v = w x u.\n"
         "Distance, viewport and projection stay."
     )
-    if look.error is not None and pending.note("look", str(look.error), "Back to the camera's own"):
-        look = LookAt()
     return look, wish
 
 

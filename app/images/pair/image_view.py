@@ -34,8 +34,8 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 class Linked:
     """The state that the two images share.
 
-    walked_frame: the last one in which a key has moved the mark. guest: see app/ui/guest.py; set by
-    itself.
+    walked_frame: the last one in which a key has moved the mark. size: of the images, when they
+    were last drawn. guest: see app/ui/guest.py; set by itself.
     """
 
     mouse: ImageMouse = field(default_factory=ImageMouse)
@@ -43,6 +43,7 @@ class Linked:
     gesture_number: int = 0
     gesture_s: float = 0.0
     walked_frame: int = -1
+    size: tuple[int, int] = (0, 0)
     guest: Guest | None = None
 
 
@@ -215,7 +216,8 @@ class ImageView(Instrument):
         """Move the mark to the same ray if the images have another size."""
         shared, state, size = self.linked, host.state, host.renderers.size
         marked_size = state.options.marked_size
-        if marked_size is None and shared.anchor is None and host.is_rearranging:
+        is_final, shared.size = size == shared.size and not host.is_rearranging, size
+        if marked_size is None and shared.anchor is None and not is_final:
             return  # a step's mark belongs to the size that comes when the layout is done
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
         now_size = size if marked is not None else None

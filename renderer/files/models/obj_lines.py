@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from lucida.renderer.files.models.texts import Ints
 
 _COMMENT = re.compile(rb"#[^\n]*")
-_INDENT = re.compile(rb"^[ \t]+", re.MULTILINE)
-_BLANKS = np.frombuffer(b" \t", np.uint8)
+_INDENT = re.compile(rb"^ +", re.MULTILINE)
+_BLANK = ord(" ")
 _NOTHING = np.frombuffer(b"#\n", np.uint8)
 _KINDS = ("v", "vn", "vt", "f", "l", "p", "s", "g")  # of which there may be many lines
 
@@ -21,24 +21,24 @@ class Lines:
     """The lines of a tidy text (texts.tidy), numbered as it is: its empty first line is 0."""
 
     def __init__(self, text: bytes) -> None:
+        text = text.replace(b"\t", b" ")
         octets, begins = _begins(text)
-        if np.isin(octets[begins], _BLANKS).any():
+        if (octets[begins] == _BLANK).any():
             text = _INDENT.sub(b"", text)
             octets, begins = _begins(text)
         self.text, self._octets = text, octets
         self._begins = np.append(begins, len(text))
-        ahead = [octets[begins + k] for k in range(3)]
-        blank = [(letter == _BLANKS[0]) | (letter == _BLANKS[1]) for letter in ahead]
-        is_other = ~np.isin(ahead[0], _NOTHING)
+        is_other = ~np.isin(octets[begins], _NOTHING)
+        first, second, third = (octets[begins + k].astype(np.int32) for k in range(3))
+        words = {2: first << 8 | second, 3: first << 16 | second << 8 | third}
         self._numbers = {}
         for kind in _KINDS:
-            mask = blank[len(kind)].copy()
-            for letter, wanted in zip(ahead, kind, strict=False):
-                mask &= letter == ord(wanted)
+            word = f"{kind} ".encode()
+            mask = words[len(word)] == int.from_bytes(word, "big")
             is_other &= ~mask
             self._numbers[kind] = np.flatnonzero(mask)
             for k in range(len(kind)):  # only numbers are left of these lines
-                octets[begins[mask] + k] = ord(" ")
+                octets[begins[mask] + k] = _BLANK
         self._others = np.flatnonzero(is_other)
 
     def numbers(self, kind: str) -> Ints:
@@ -62,7 +62,7 @@ class Lines:
     def statements(self) -> Iterator[tuple[int, str, str]]:
         """Yield line, keyword and the rest of all other lines."""
         for number in self._others.tolist():
-            keyword, _, rest = self.line(number).replace("\t", " ", 1).partition(" ")
+            keyword, _, rest = self.line(number).partition(" ")
             yield number, keyword, rest.strip()
 
     def line(self, number: int) -> str:

@@ -25,7 +25,7 @@ def drive_a_slider_is_dragged(d):
     assert d.renderers.ray_image.factor == 1
 
 
-NOTE = "//###pending camera"
+NOTE = "//###pending"
 
 
 def drive_a_number_that_is_not_legal_moves_nothing(d):
