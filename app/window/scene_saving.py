@@ -22,7 +22,6 @@ from lucida.renderer.editing.documents import (
     save,
     suggested_file,
 )
-from lucida.renderer.files.outside import outside_files
 from lucida.renderer.files.rewriting import CommentsLostError
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.errors import describe, one_line
@@ -168,11 +167,6 @@ def is_marked(scene: Scene, is_a_steps: bool = False) -> bool:
 
 
 def title(scene: Scene, is_a_steps: bool = False) -> str:
-    """Return the window's title, with a star if the scene is_marked().
-
-    If the scene's models are not next to it, it names their folder, once, which asks the file
-    system.
-    """
-    elsewhere = " (with models from outside its folder)" if outside_files(scene) else ""
+    """Return the window's title, with a star if the scene is_marked()."""
     star = " *" if is_marked(scene, is_a_steps) else ""
-    return f"Lucida: {scene.name}{star}{elsewhere}" if scene.name else f"Lucida{star}{elsewhere}"
+    return f"Lucida: {scene.name}{star}" if scene.name else f"Lucida{star}"

@@ -100,8 +100,3 @@ def model_files(scene: Scene) -> tuple[Path, ...]:
     entries = origin.tables.get("objects", ())
     names = (entry["file"] for entry in entries if entry.get("type") == "model")
     return tuple(dict.fromkeys(origin.folder / name for name in names))
-
-
-def outside_files(scene: Scene) -> tuple[Path, ...]:
-    """Return the scene's models that lie outside of its file's folder."""
-    return outside(model_files(scene), scene.origin.folder) if scene.origin is not None else ()

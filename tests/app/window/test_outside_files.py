@@ -13,9 +13,8 @@ from lucida.app.cli import main
 from lucida.app.lecture.reading import load_lecture
 from lucida.app.window.files import Files, outside_question
 from lucida.app.window.opening import OpenedScene, open_sources
-from lucida.app.window.scene_saving import title
 from lucida.renderer.files import load_scene
-from lucida.renderer.files.outside import OutsideError, kept_inside, outside, outside_files
+from lucida.renderer.files.outside import OutsideError, kept_inside, model_files, outside
 from lucida.renderer.system.errors import LucidaError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
@@ -47,8 +46,7 @@ def test_what_is_inside_is_read_without_a_word(name, folder):
     path = scene_file(folder, name)
     scene = found(open_sources([str(path)], dropped=True), OpenedScene).scene
     assert scene is not None
-    assert outside_files(scene) == ()
-    assert title(scene) == "Lucida: scene"
+    assert outside(model_files(scene), folder) == ()
 
 
 @pytest.mark.parametrize("name", ELSEWHERE)
@@ -56,9 +54,8 @@ def test_what_is_outside_is_told_and_not_read_for_a_dropped_scene(name, folder, 
     path = scene_file(folder, "m.obj", name)
     scene = found(open_sources([str(path)]), OpenedScene).scene  # the user has named it
     assert scene is not None
-    (file,) = outside_files(scene)
+    (file,) = outside(model_files(scene), folder)
     assert os.path.realpath(file) == str(folder.parent.resolve() / "m.obj")
-    assert title(scene) == "Lucida: scene (with models from outside its folder)"
     with monkeypatch.context() as patch:
         patch.setattr("lucida.renderer.files.scene_parts.load_model", None)  # nothing is read
         with pytest.raises(OutsideError) as caught:
