@@ -18,10 +18,10 @@ from lucida.app.checking.mistakes.programs import program_of
 from lucida.app.checking.mistakes.vectors import FUNCTIONS
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.words import PARTS
-from lucida.app.ui.explaining.symbols import arguments, program
+from lucida.app.ui.explaining.symbols import arguments, program, spoken
 from lucida.renderer.system.errors import visible
 
-AS_IF = "As if it read"
+AS_IF = "Your code behaves like"
 _NAME = re.compile(r"(?<![\w.'])[A-Za-z_]\w*")
 _PIXEL = re.compile(r" ?\b([ij])\b")  # in the words of a hint
 _PYTHON = {*dir(builtins), *keyword.kwlist}
@@ -126,7 +126,7 @@ def returned(task: CheckTask) -> str:
     """Return the names of the returned parts, `origin, direction`; a description if there are no
     parts.
     """
-    return ", ".join(task.conventions.returns) or KINDS[task.kind].answer
+    return ", ".join(task.conventions.returns) or spoken(KINDS[task.kind].answer, task.notation)
 
 
 def _function(tasks: Sequence[CheckTask]) -> str:
@@ -143,7 +143,8 @@ def arguments_text(task: CheckTask, indent: int = 4) -> list[str]:
     lines = []
     for name, word in task.conventions.arguments:
         shown = shown_name(task, name, word)
-        lines += _wrapped(f"{shown}: {said(words[word])}", indent, indent + 4)
+        meaning = spoken(said(words[word]), task.notation)
+        lines += _wrapped(f"{shown}: {meaning}", indent, indent + 4)
         if word == CAMERA:
             for field, meant in task.conventions.camera:
                 its = shown_name(task, field, meant)

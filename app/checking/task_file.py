@@ -53,13 +53,11 @@ NAME = re.compile(r"[^\W\d]\w*")
 
 @dataclass(frozen=True)
 class TaskSet:
-    """The tasks of a file, and its limits. removed: fields of older versions, which are ignored."""
+    """The tasks of a file, and its limits. notes: what the file says in vain, in sentences."""
 
-    title: str
     tasks: tuple[CheckTask, ...]
     limits: Limits
-    notation: Notation = "book"
-    removed: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 @lru_cache
@@ -87,8 +85,10 @@ def load_tasks(path: str | Path) -> TaskSet:
             raise located(error, Places(text), source) from None
         raise error.at_its_line(source) from None
     try:
-        removed = _without_removed(tables)
-        return replace(_tasks(to_struct(tables, TaskFile)), removed=removed)
+        notes = [f"{name} is ignored; see CHANGELOG.md" for name in _without_removed(tables)]
+        if tables.get("network") is False:
+            notes.append("network = false is not enforced: a container without a network does it")
+        return replace(_tasks(to_struct(tables, TaskFile)), notes=tuple(notes))
     except LucidaError as error:
         raise located(error, Places(text), source) from None
 
@@ -111,7 +111,7 @@ def _tasks(file: TaskFile) -> TaskSet:
             tasks.append(task)
     limits = Limits()
     limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
-    return TaskSet(file.title, tuple(tasks), limits, file.notation)
+    return TaskSet(tuple(tasks), limits)
 
 
 def _without_removed(tables: dict[str, Any]) -> tuple[str, ...]:

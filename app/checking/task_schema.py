@@ -91,7 +91,7 @@ class TaskFile(StrictTable, kw_only=True):
     feedback: Feedback = "diagnosis"
     seconds: Annotated[float, Meta(gt=0, le=3600)] | None = None
     memory_mb: Annotated[int, Meta(ge=64, le=1 << 20)] | None = None
-    network: bool = False
+    network: bool | None = None
     notation: Notation = "book"
     conventions: ConventionsTable = field(default_factory=ConventionsTable)
     tasks: list[dict[str, Any]]

@@ -22,8 +22,8 @@ def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
     from lucida.app.checking.task_file import load_tasks
 
     found = load_tasks(task_path(source))
-    for name in found.removed:
-        print(f"lucida: {name} in {visible(source)} is ignored; see CHANGELOG.md", file=sys.stderr)
+    for note in found.notes:
+        print(f"lucida: {visible(source)}: {note}", file=sys.stderr)
     return list(found.tasks), found.limits
 
 

@@ -178,7 +178,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) -> int:
     """Write the lecture as one HTML file, or print that as PDF."""
-    from lucida.app.web.lecture import pdf
+    from lucida.app.web import pdf
     from lucida.renderer.system.atomic import atomic_write, check_writable
 
     target = Path(arguments.export)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Protocol
 
 from imgui_bundle import ImVec2, imgui
 
@@ -10,6 +11,15 @@ from lucida.app.ui import theme
 from lucida.renderer.system.errors import LucidaError
 
 TYPED = int(imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all)
+
+
+class Box(Protocol):
+    """A box in the middle of the window. focused: True if it has the keyboard."""
+
+    focused: bool
+
+    def draw(self) -> bool:
+        """Draw the box. Return True while it stays open."""
 
 
 class EntryBox:

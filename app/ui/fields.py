@@ -13,7 +13,8 @@ from lucida.app.ui import pending, theme, typed
 from lucida.app.ui.explaining import notation
 from lucida.app.ui.rows import tip
 
-LEAST = 1e-3  # where dragging a logarithmic value ends
+LEAST = 1e-2  # where dragging a logarithmic value ends, in parts of the scale's low end
+FINE = 0.1  # the usual decimals are too few for a scale that is shorter
 FLT_MAX = 3.4e38
 WIDTH = 8  # characters of a number
 DECIMALS = 4
@@ -49,27 +50,34 @@ class Scale(NamedTuple):
     def speed(self, value: float) -> float:
         """Return the change of the value for one pixel of dragging."""
         if self.logarithmic:
-            return max(abs(value), LEAST) * math.log(self.high / self.low) / 500
+            return max(abs(value), LEAST * self.low) * math.log(self.high / self.low) / 500
         return (self.high - self.low) / 400
 
     @property
     def limits(self) -> tuple[float, float]:
         """The limits of dragging; (0, 0) for none."""
         if self.logarithmic:
-            return max(LEAST, self.least), self.most
+            return max(LEAST * self.low, self.least), self.most
         return (0.0, 0.0) if self.least == -FLT_MAX else (self.least, self.most)
 
 
-def shown_number(value: float, characters: int, decimals: int = DECIMALS) -> str:
+def shown_number(
+    value: float, characters: int, decimals: int = DECIMALS, is_fine: bool = False
+) -> str:
     """Return a number with its usual decimals, or with as many digits as fit; a pixel's fraction is
     complete, so that it matches calculations by hand. It ends at the last of the characters.
+
+    is_fine: the usual decimals are too few.
     """
     text, usual = notation.number(value), f"{value:z.{decimals}f}"
-    if len(text) < len(usual) <= WIDTH:
+    if is_fine:
+        text = f"{value:.7g}"
+    elif len(text) < len(usual) <= WIDTH:
         text = usual
     for digits in range(6, 0, -1):
         if len(text) > characters:
-            text = f"{value:.{digits}g}".replace("e+0", "e").replace("e-0", "e-")
+            forms = f"{value:.{digits}g}", f"{value:.{digits - 1}e}"
+            text = min((form.replace("e+0", "e").replace("e-0", "e-") for form in forms), key=len)
     return text.rjust(min(characters, WIDTH))
 
 
@@ -99,8 +107,8 @@ def number_field(
     characters = int(room_px / character_px + 0.05)
     if characters < WIDTH + len(unit):
         unit = unit[:1].strip()
-    decimals = 0 if scale.whole else DECIMALS
-    shown = shown_number(value, characters - len(unit), decimals) + unit
+    decimals, is_fine = 0 if scale.whole else DECIMALS, scale.high - scale.low < FINE
+    shown = shown_number(value, characters - len(unit), decimals, is_fine) + unit
     if marked:
         imgui.push_style_var(imgui.StyleVar_.frame_border_size, 0.1 * imgui.get_font_size())
         imgui.push_style_color(imgui.Col_.border, theme.ERROR)

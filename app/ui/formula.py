@@ -15,6 +15,7 @@ import imgui_bundle
 from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
 from lucida.app.ui import theme
+from lucida.app.ui.contrast import LEGIBLE, Rgb
 from lucida.app.ui.explaining.breaking import breakable
 from lucida.app.ui.explaining.plain import plain_math
 from lucida.app.ui.theme import framebuffer_scale
@@ -132,17 +133,21 @@ def vector_colors() -> dict[str, ImVec4]:
     return theme.BASIS | ray | {"x": theme.MARK, "e": theme.TEXT}
 
 
-def tinted(latex: str) -> str:
-    """Return the formula in the colour language: u, v, w, the ray, the hit."""
-    return _tinted(latex, theme.used())
+def tinted(latex: str, ground: Rgb | None = None) -> str:
+    """Return the formula in the colour language: u, v, w, the ray, the hit.
+
+    ground: the colour under it; None for a panel.
+    """
+    return _tinted(latex, ground, theme.used())
 
 
 @functools.lru_cache(maxsize=1024)
-def _tinted(latex: str, _look: theme.WindowLook) -> str:
+def _tinted(latex: str, ground: Rgb | None, _look: theme.WindowLook) -> str:
     """Return the formula in the colours of a look, which is in use."""
     for name, color in vector_colors().items():
         symbol = rf"\mathbf{{{name}}}"
-        latex = latex.replace(symbol, rf"\fgcolor{{{_hex(theme.legible(color))}}}{{{symbol}}}")
+        ink = theme.legible(color) if ground is None else theme.seen_on(color, ground, LEGIBLE)
+        latex = latex.replace(symbol, rf"\fgcolor{{{_hex(ink)}}}{{{symbol}}}")
     return latex
 
 

@@ -10,7 +10,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import OptionPart
 from lucida.app.state.options import Options
 from lucida.app.state.options.shared import Pixel
-from lucida.app.ui.entry_box import EntryBox
+from lucida.app.ui.entry_box import Box
 from lucida.app.ui.recent import RecentFiles
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
@@ -85,13 +85,15 @@ class Host(Protocol):
     renderers: both images of the current state.
     files: opening and saving. shell: the parts around the views.
     moves: True if things may move by themselves; False while a picture of the window is taken.
+    is_rearranging: True until all views have their places, after which sizes are final.
     box: asks for an entry; None if nothing does.
     """
 
     fonts: Fonts
     renderers: Renderers
     moves: bool
-    box: EntryBox | None
+    is_rearranging: bool
+    box: Box | None
 
     @property
     def has_tools(self) -> bool:

@@ -15,6 +15,7 @@ from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.window import bookmarks
 from lucida.app.window.camera_files import CAMERA_FILES
 from lucida.app.window.documents import ABOUT, FIRST, GETTING_STARTED
+from lucida.app.window.figure_box import ask_figure
 
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
@@ -94,6 +95,7 @@ FILE = (
     ),
     *CAMERA_FILES,
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E"),
+    Action("File", "Export figure...", ask_figure, "Ctrl+Shift+E"),
     Action(PICTURES, "Save a picture of the window", lambda w: w.shell.picture(), "F12"),
     Action(
         PICTURES,

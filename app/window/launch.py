@@ -8,17 +8,27 @@ from pathlib import Path
 
 from lucida.app.images.imaging import with_resolution
 from lucida.app.images.photograph.model import with_photograph
+from lucida.app.instruments.outside.view import OUTSIDE
 from lucida.app.instruments.poses.model import PoseSet, with_set, with_set_framed
+from lucida.app.instruments.probe.view import PROBE
+from lucida.app.state.app_state import AppState
+from lucida.app.state.options.shared import Pixel
 from lucida.app.state.paths import stored
+from lucida.app.ui import layout
+from lucida.app.ui.surface import Target
 from lucida.app.window.capture import free_path
+from lucida.app.window.figures import FigureChoice, written
 from lucida.app.window.platform import Platform, start_platform
 from lucida.app.window.start import begin_scene, begin_session, kept
 from lucida.app.window.viewer import WindowRun
 from lucida.renderer.files import EMPTY_SCENE
+from lucida.renderer.scene import Scene
 from lucida.renderer.scene import View as SceneView
 from lucida.renderer.system.atomic import check_writable
 
 DEFAULT_PICTURE = Path("lucida.png")
+LAID_OUT = 4  # frames until views have their places
+SHOWN_IN = {"outside": (OUTSIDE, layout.OUTSIDE), "probe": (PROBE, PROBE)}  # view, layout
 
 
 def run_viewer(
@@ -90,3 +100,34 @@ def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | 
     check_writable(picture)
     print(f"lucida: no display ({platform.reason}): drawing {what} once, into {picture}")
     return platform, picture
+
+
+def draw_figure(
+    scene: Scene, view: SceneView, choice: FigureChoice, ending: str, marked: Pixel | None
+) -> bytes:
+    """Return the file of a figure, of a window without a display.
+
+    ending: of the file's name. marked: a pixel. Raises LucidaError.
+    """
+    width, height = choice.size
+    state = AppState.for_scene(scene, view)
+    state = with_resolution(state, (width // 2 if choice.what == "pair" else width, height))
+    state = state.with_options(replace(state.options, marked=marked))
+    run = WindowRun(start_platform(want_display=False), state, None, take_picture=True)
+    run.take_picture = False
+    window, frames, quiet, content = run.window, 0, 0, b""
+
+    def drawn(_: Target) -> None:
+        nonlocal frames, quiet, content
+        window.check()
+        frames += 1
+        if frames == LAID_OUT and choice.what in SHOWN_IN:
+            window.show_in(*SHOWN_IN[choice.what])
+        quiet = quiet + 1 if window.settled and frames > LAID_OUT else 0
+        if quiet > LAID_OUT and not content:
+            content = written(window, choice, ending)
+            run.params.app_shall_exit = True
+
+    run.on_drawn = drawn
+    run.run()
+    return content

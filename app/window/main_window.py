@@ -22,7 +22,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.background import Background
-from lucida.app.ui.entry_box import EntryBox
+from lucida.app.ui.entry_box import Box
 from lucida.app.ui.host import T
 from lucida.app.ui.instrument import Instrument
 from lucida.app.window.action_table import run_shortcuts
@@ -69,7 +69,7 @@ class MainWindow(Edits):
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene, is_marked(state.scene, state.step is not None)
-        self.box: EntryBox | None = None
+        self.box: Box | None = None
         self.is_rearranging = True
         self._focus = Memo(scene_focus)
         self.motions = Motions(self, instant=not smooth)

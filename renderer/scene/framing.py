@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,8 @@ LIGHTS = (
 DIRECTION = (0.5, 0.35, 1.0)  # from the scene's centre to the eye: its front, from the right
 FOV_Y_DEG = 35.0
 MARGIN = 1.08
+PLANE = 0.67  # of the way from the eye to the scene: no image plane is farther
+SIDES = (5, 2, 1)  # of a viewport, times powers of ten
 
 SMALLEST_RADIUS, LARGEST_RADIUS = 1e-6, 1e11
 
@@ -34,8 +37,9 @@ SMALLEST_RADIUS, LARGEST_RADIUS = 1e-6, 1e11
 def framing_view(objects: Sequence[SceneObject]) -> View:
     """Return a perspective view that shows every object, fitted to any aspect ratio.
 
-    The eye is in front of the centre of their bounds, a little to the right and above. Raises
-    LucidaError if the objects are too small or too large to put a camera there.
+    The eye is in front of the centre of their bounds, a little to the right and above; the image
+    plane is between both, and its side is a round number. Raises LucidaError if the objects are too
+    small or too large to put a camera there.
     """
     if not objects:
         return View(Camera.canonical(), fit=True)
@@ -53,8 +57,13 @@ def framing_view(objects: Sequence[SceneObject]) -> View:
     across = np.abs(points @ np.column_stack([u, np.cross(w, u)])).max(axis=1)
     # A point at depth z below the eye's plane is seen where across <= z tan(fov / 2).
     needed = points @ w + MARGIN * across / math.tan(math.radians(FOV_Y_DEG) / 2)
-    eye = center + max(float(needed.max()), 1.5 * radius) * w
-    return View(Camera.look_at(eye, center, fov_y_deg=FOV_Y_DEG), fit=True)
+    away = max(float(needed.max()), 1.5 * radius)
+    camera = Camera.look_at(center + away * w, center, fov_y_deg=FOV_Y_DEG)
+    most = PLANE * (away - float((points @ w).max())) / camera.distance
+    power = 10.0 ** math.floor(math.log10(most))
+    side = next(side * power for side in SIDES if side * power <= most)
+    viewport = (-side / 2, side / 2, -side / 2, side / 2)
+    return View(replace(camera, distance=side * camera.distance, viewport=viewport), fit=True)
 
 
 def median_distance(

@@ -120,7 +120,7 @@ def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
         "distance",
         draft.value("distance"),
         width,
-        Scale(0.1, 10.0, logarithmic=True),
+        Scale(0.1 * _side(state), 10.0 * _side(state), logarithmic=True),
         DISTANCE,
         wrong=draft.is_wrong("distance"),
         reset=state.scene.view.camera.distance,
@@ -178,5 +178,11 @@ def _viewport(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 def viewport_scale(state: AppState, around: PanelContext) -> Scale:
     """Return the scale of the viewport's numbers: lengths for parallel rays, else slopes."""
-    reach = around.focus.reach if state.camera.is_parallel else 1.0
+    reach = around.focus.reach if state.camera.is_parallel else _side(state)
     return Scale(-reach, reach)
+
+
+def _side(state: AppState) -> float:
+    """Return the height of the viewport of the scene's own camera: small in a small scene."""
+    _, _, bottom, top = state.scene.view.camera.viewport
+    return top - bottom

@@ -17,6 +17,7 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from lucida.app.checking.cases import shots
 from lucida.app.checking.conventions import (
@@ -51,9 +52,7 @@ class ViewingRayKind(CheckKind):
         return given
 
     def wrong(self, task: CheckTask, cases: Cases, given: Any) -> Flags:
-        right = np.array([case.right for case in cases], float)
-        tolerance = np.array([case.tolerance for case in cases], float)
-        return ~are_right(task.conventions, right, np.asarray(given), tolerance)
+        return ~are_right(cases, given, task.conventions.unit)
 
     def parts(self, task: CheckTask, case: CheckCase, answer: Floats) -> dict[str, Any]:
         ray = np.asarray(answer, float)
@@ -131,10 +130,15 @@ def largest_number(camera: Camera) -> float:
     return float(np.linalg.norm(camera.eye) + _reach(camera) + depth)
 
 
-def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance: Floats) -> Flags:
-    """Return the correct rays, bool (N,). right, given: (N, 2, 3) in the world; tolerance:
-    (N, 2).
+def are_right(cases: Cases, given: ArrayLike, unit: bool) -> Flags:
+    """Return the correct rays, bool (N,).
+
+    given: (N, 2, 3) in the world.
+    unit: directions must be of length 1.
     """
+    given = np.asarray(given)
+    right = np.array([case.right for case in cases], float)
+    tolerance = np.array([case.tolerance for case in cases], float)
     with np.errstate(all="ignore"):
         lengths = np.linalg.norm(given[:, 1], axis=1)
         directions = given[:, 1] / lengths[:, None]
@@ -143,7 +147,7 @@ def are_right(conventions: Conventions, right: Floats, given: Floats, tolerance:
         ahead = np.sum(directions * wanted, axis=1) > 0
         fine = ahead & (turned <= tolerance[:, 1])
         fine &= np.linalg.norm(given[:, 0] - right[:, 0], axis=1) <= tolerance[:, 0]
-        if conventions.unit:
+        if unit:
             fine &= np.abs(lengths - 1) <= FLOAT32
     return fine
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -47,9 +47,8 @@ def diagnosis(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Diagno
     with np.errstate(all="ignore"):  # a student's numbers may be anything
         sentences = list(_of_all(task, cases, given))
         if not sentences:
-            chosen = np.argsort(~wrong, kind="stable")[
-                :: -(-len(cases) // MOST)
-            ]  # wrong ones first
+            wrong_first = np.argsort(~wrong, kind="stable")
+            chosen = wrong_first[:: -(-len(cases) // MOST)]
             program = program_of(task)
             answers = [given[number] for number in chosen]
             trials = trials_of(task, [cases[number] for number in chosen], answers)
@@ -64,10 +63,7 @@ def diagnosis(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> Diagno
 def _of_all(task: CheckTask, cases: Cases, given: Any) -> Iterator[str]:
     """Yield a sentence that describes all answers, if there is one."""
     if task.kind == "viewing-ray":
-        of_any_length = replace(task.conventions, unit=False)
-        right = np.array([case.right for case in cases], float)
-        tolerance = np.array([case.tolerance for case in cases], float)
-        if are_right(of_any_length, right, np.asarray(given), tolerance).all():
+        if are_right(cases, given, unit=False).all():
             yield "The directions are correct, but not of length 1: normalise them."
         return
     last = np.array([np.ravel(one)[-1] for one in given], float)
@@ -126,11 +122,10 @@ def _correct_parts(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> I
     if np.ptp(rays, axis=0).max() == 0:
         yield "All your rays are the same: they do not depend on i and j."
         return
-    tolerance = np.array([case.tolerance for case in cases], float)
 
     def are_all_right(origins: Any, directions: Any) -> bool:
         made = np.stack([origins, directions], axis=1)
-        return bool(are_right(task.conventions, right, made, tolerance).all())
+        return bool(are_right(cases, made, task.conventions.unit).all())
 
     if are_all_right(rays[:, 0], right[:, 1]):
         yield "Your origins are correct, your directions are not."

@@ -35,7 +35,7 @@ _ENVIRONMENT = {
 
 DISHONEST = (
     "The program has your rights: a dishonest one could read the right answers, change its "
-    "results, end this check or leave processes behind; and network = false is not enforced. "
+    "results, end this check or leave processes behind. "
     "Run strangers' programs in a container, or as root with --as USER."
 )
 

@@ -14,7 +14,6 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from lucida.app.checking.checked import WrongCase
 from lucida.app.checking.your_code.model import CodeRays, CodeReport, canvas_pixel
 from lucida.app.images.changed_pixels import changed_pixels, difference_picture
 from lucida.app.images.ray_pictures import RayPainter, RayPictures
@@ -36,7 +35,6 @@ Floats = NDArray[np.float64]
 SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour
 SAME = "the same colours"  # though rays are wrong
 PICTURES = ("given", "right", "difference")
-IMAGES = ("render", "to-gray", "to-bitmap")  # kinds of functions whose answers are images
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,16 +75,6 @@ def compared(
     return CodePictures(shown, wanted, difference, told)
 
 
-def image_pair(right: Floats, given: Floats) -> CodePictures:
-    """Return the pictures of two images of the same shape, in linear light or gray from 0 to 1."""
-    first, second = (
-        (one if one.ndim == 3 else np.repeat(one[..., None], 3, axis=2)).astype(np.float32)
-        for one in (right, given)
-    )
-    came = np.asarray(np.isfinite(second).all(axis=2))
-    return compared(second, first, came, np.zeros(came.shape, bool))
-
-
 class PicturesShown:
     """The pictures of a report; call follow() once a frame. pictures: the ones on screen; None for
     none.
@@ -95,7 +83,6 @@ class PicturesShown:
     def __init__(self, host: Host, context: moderngl.Context) -> None:
         self._painter: RayPictures[CodePictures] = RayPictures("lucida-your-pictures", host.animate)
         self._uploads = Uploads(context)
-        self._answered = Memo(_answered)
         self._upload = Memo(_upload)
         self.pictures: CodePictures | None = None
 
@@ -127,10 +114,6 @@ class PicturesShown:
         rays, state = report.rays, host.state
         if rays is None or not rays.came.any():
             self.forget()
-            chosen = report.chosen
-            result = report.results.get(chosen.name) if chosen is not None else None
-            if result is not None and result.first and result.task.kind in IMAGES:
-                self.pictures = self._answered(result.first)
         else:
             key, live = (rays, state.images.exposure_ev), host.renderers.live
             make = partial(_painted, rays=rays, exposure_ev=state.images.exposure_ev)
@@ -150,8 +133,8 @@ class PicturesShown:
             wrapped(text, theme.ERROR if error is not None else theme.DIM)
             imgui.end_child()
             return
-        are_of_rays = rays is not None and pictures.size == rays.size
-        pixel, color = marked if are_of_rays else None, role_color("other")
+        is_of_rays = rays is not None and pictures.size == rays.size  # not of those before
+        pixel, color = marked if is_of_rays else None, role_color("other")
         given, right, difference = map(self._uploads.get, PICTURES)
         grid = [
             GridPicture("given", "yours", given, frame=color, pixel=pixel),
@@ -163,7 +146,7 @@ class PicturesShown:
         except LucidaError as error:
             imgui.text_colored(theme.ERROR, describe(error))
             return
-        if answer is not None and rays is not None and are_of_rays:
+        if answer is not None and rays is not None and is_of_rays:
             again = host.state.marked is not None and answer.pixel == marked
             found = canvas_pixel(answer.pixel, rays.camera, rays.size, *_images(host))
             options = replace(host.state.options, marked=None if again else found)
@@ -183,10 +166,6 @@ def marked_pixel(host: Host, report: CodeReport) -> Pixel | None:
 
 def _images(host: Host) -> tuple[Camera, tuple[int, int]]:
     return host.renderers.camera(host.state), host.renderers.size
-
-
-def _answered(first: WrongCase) -> CodePictures:
-    return image_pair(first.case.right, first.answer)
 
 
 def _painted(painter: RayPainter, rays: CodeRays, exposure_ev: float) -> CodePictures:

@@ -78,40 +78,30 @@ def _of_file(report: CodeReport) -> Iterator[ToldLine]:
 
 
 def _of_task(report: CodeReport, pixel: Pixel | None) -> Iterator[ToldLine]:
+    """Yield what the pictures show, and why; then the result of other cases."""
     chosen, rays = report.chosen, report.rays
     assert chosen is not None
-    if rays is not None:
-        yield from _of_rays(report, rays)
-        if pixel is not None and bool(rays.came[pixel]):
-            yield from _of_pixel(rays, pixel)
-        if rays.result.failure is not None:
-            return
     result = report.results.get(chosen.name)
-    if result is None:
-        yield ToldLine("dim", f"{chosen.name} is being tried with other cases ...")
-    elif rays is None or rays.result.status == "right":
-        if rays is not None and result.status != "right":
-            yield ToldLine("bad", "But not for every camera:")
-        yield from _of_result(result)
-
-
-def _of_rays(report: CodeReport, rays: CodeRays) -> Iterator[ToldLine]:
-    """Yield what the pictures show, and why."""
-    result = rays.result
-    if result.failure is not None:
-        yield from _of_failure(result)
+    if rays is None:
+        yield from _of_result(chosen, result)
+    elif rays.result.failure is not None:
+        yield from _of_failure(rays.result)
         if report.halted:
             yield ToldLine("dim", f"{HALTED}: choose fewer pixels, save the file, or press Run.")
-    elif result.status == "right":
-        yield ToldLine("good", "Every ray is correct.")
-    else:
-        wrong = int(rays.wrong.sum())
-        yield ToldLine("bad", f"{wrong} of {rays.wrong.size} rays are wrong.")
+    elif rays.result.status == "wrong":
+        yield ToldLine("bad", f"{rays.wrong.sum()} of {rays.wrong.size} rays are wrong.")
         tried = report.results.get(rays.task.name)
         if tried is None:
             yield ToldLine("dim", "looking for the reason ...")
         elif tried.diagnosis is not None:
             yield from (ToldLine("text", sentence) for sentence in tried.diagnosis.sentences)
+    else:
+        yield ToldLine("good", "Every ray is correct.")
+        if result is not None and result.status != "right":
+            yield ToldLine("bad", "But not for every camera:")
+        yield from _of_result(chosen, result)
+    if rays is not None and pixel is not None and bool(rays.came[pixel]):
+        yield from _of_pixel(rays, pixel)
 
 
 def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
@@ -129,13 +119,15 @@ def _of_pixel(rays: CodeRays, pixel: Pixel) -> Iterator[ToldLine]:
         yield ToldLine("code", f"{name}  {origin} + t {direction}")
 
 
-def _of_result(result: TaskResult) -> Iterator[ToldLine]:
-    if result.failure is not None:
+def _of_result(task: CheckTask, result: TaskResult | None) -> Iterator[ToldLine]:
+    if result is None:
+        yield ToldLine("dim", f"{task.name} is being tried with other cases ...")
+    elif result.failure is not None:
         yield from _of_failure(result)
     elif result.status == "right":
-        yield ToldLine("good", f"{result.task.name}: correct in all of {result.cases} cases.")
+        yield ToldLine("good", f"{task.name}: correct in all of {result.cases} cases.")
     else:
-        yield ToldLine("bad", f"{result.task.function} is wrong.")
+        yield ToldLine("bad", f"{task.function} is wrong.")
         yield from (ToldLine("text", line) for line in result.lines)
 
 

@@ -27,7 +27,6 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.system.errors import LucidaError
 
 PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
-STEADY = 6  # frames of one size, two panes each
 NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under the mouse too
 
 
@@ -35,8 +34,8 @@ NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under 
 class Linked:
     """The state that the two images share.
 
-    walked_frame: the last one in which a key has moved the mark. size, steady_frames: of the
-    images, and how often they were drawn at that size. guest: see app/ui/guest.py; set by itself.
+    walked_frame: the last one in which a key has moved the mark. size: of the images, when they
+    were last drawn. guest: see app/ui/guest.py; set by itself.
     """
 
     mouse: ImageMouse = field(default_factory=ImageMouse)
@@ -45,7 +44,6 @@ class Linked:
     gesture_s: float = 0.0
     walked_frame: int = -1
     size: tuple[int, int] = (0, 0)
-    steady_frames: int = 0
     guest: Guest | None = None
 
 
@@ -71,7 +69,6 @@ class ImageView(Instrument):
     def begin_anew(self) -> None:
         """Reset the mouse and the mark: the step's mark belongs to the size of its final layout."""
         self.linked.mouse, self.linked.anchor = ImageMouse(), None
-        self.linked.steady_frames = 0
 
     def own_camera(self, host: Host) -> Camera | None:
         return host.state.camera
@@ -219,9 +216,8 @@ class ImageView(Instrument):
         """Move the mark to the same ray if the images have another size."""
         shared, state, size = self.linked, host.state, host.renderers.size
         marked_size = state.options.marked_size
-        shared.steady_frames = shared.steady_frames + 1 if size == shared.size else 0
-        shared.size = size
-        if marked_size is None and shared.anchor is None and shared.steady_frames < STEADY:
+        is_final, shared.size = size == shared.size and not host.is_rearranging, size
+        if marked_size is None and shared.anchor is None and not is_final:
             return  # a step's mark belongs to the size that comes when the layout is done
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
         now_size = size if marked is not None else None

@@ -20,7 +20,7 @@ from lucida.app.instruments.objects.choosing import (
 )
 from lucida.app.instruments.objects.handles import Handles
 from lucida.app.instruments.objects.remedies import remedied, scene_remedy
-from lucida.app.instruments.objects.silhouette import Floats, outlines_of
+from lucida.app.instruments.objects.silhouette import Outline, outer, outlines_of
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.instruments.outside.view import OUTSIDE
 from lucida.app.state.app_state import AppState
@@ -145,20 +145,26 @@ def lights_in(state: AppState, shown: ShownIn) -> dict[Item, ImVec2]:
     return found
 
 
-def _outlines(scene: Scene, items: tuple[Item, ...], camera: Camera) -> Floats:
-    """Return the outlines (n, 2, 3), in the world, of the items' objects that are not hidden."""
+def _outlines(scene: Scene, items: tuple[Item, ...], camera: Camera) -> list[Outline]:
+    """Return the outlines of the items' objects that are not hidden."""
     entries = [scene.objects[number] for item in items for number in ids_of(scene, item)]
     return outlines_of([entry for entry in entries if not entry.hidden], camera)
 
 
 def _segments(
-    lines: Floats, camera: Camera, origin: tuple[float, ...], extent: tuple[float, ...]
+    outlines: list[Outline],
+    camera: Camera,
+    origin: tuple[float, ...],
+    extent: tuple[float, ...],
 ) -> list[tuple[ImVec2, ImVec2]]:
-    """Return the visible part of segments (n, 2, 3) of the world on the screen.
+    """Return the lines of outlines on the screen.
 
     origin, extent: of the image, in ImGui's units.
     """
     size = max(round(extent[0]), 1), max(round(extent[1]), 1)
-    points, _, _ = OutsideScreen(camera, size).segments(lines)
-    there = points * (np.array(extent) / size) + origin
-    return [(ImVec2(*start), ImVec2(*end)) for start, end in there.tolist()]
+    screen, found = OutsideScreen(camera, size), []
+    for outline in outlines:
+        points, _, numbers = screen.segments(outline.segments)
+        there = outer(points, outline.layers[numbers], size) * (np.array(extent) / size) + origin
+        found += [(ImVec2(*start), ImVec2(*end)) for start, end in there.tolist()]
+    return found

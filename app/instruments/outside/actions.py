@@ -1,4 +1,4 @@
-"""The outside view's actions: switches, handles, directions to look from, and figures.
+"""The outside view's actions: switches, handles, and directions to look from.
 
 The view's own menu and the menu Instruments have the same entries.
 """
@@ -6,9 +6,7 @@ The view's own menu and the menu Instruments have the same entries.
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
 
-from lucida.app.instruments.outside.figure_view import Ground, export_figure
 from lucida.app.instruments.outside.looking import AXIS_NAMES
 from lucida.app.instruments.outside.tools import MENU
 from lucida.app.instruments.outside.view import OutsideView
@@ -19,7 +17,6 @@ from lucida.app.ui.host import Host
 from lucida.renderer.camera.navigation import switched_projection
 from lucida.renderer.system.errors import LucidaError
 
-PICTURE = "File/Picture"
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 
 
@@ -112,14 +109,3 @@ OUTSIDE = (
     ),
     *(_axis(axis, name) for axis, name in AXIS_NAMES.items()),
 )  # fmt: skip
-
-
-def _figure(name: str, ground: Ground, **more: Any) -> Action:
-    return Action(PICTURE, name, lambda host: export_figure(host, ground), **more)
-
-
-DIAGRAM = (
-    _figure("Export figure as SVG...", "window", keys="Ctrl+Shift+E", separated=True),
-    _figure("Export figure as SVG on white...", "white"),
-    _figure("Export figure as SVG without a ground...", "transparent"),
-)

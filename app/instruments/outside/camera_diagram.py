@@ -61,6 +61,7 @@ class Content:
     meetings: the t of all points where the marked pixel's line meets objects.
     pointed: the t under the mouse.
     names_t: True to write the t of the marked pixel's hit.
+    arrow: the length of the basis's arrows, in lengths of its vectors.
     """
 
     camera: Camera
@@ -75,6 +76,7 @@ class Content:
     meetings: tuple[float, ...] = ()
     pointed: float | None = None
     names_t: bool = True
+    arrow: float = 1.0
 
 
 def diagram(content: Content) -> list[Item]:
@@ -98,7 +100,7 @@ def diagram(content: Content) -> list[Item]:
             items += _marked(content, marked)
     if options.simple:
         return items + simple_camera(camera, options.simple, measured=options.formula is None)
-    return items + _basis(camera, options) + _eye(camera, options)
+    return items + _basis(camera, options, content.arrow) + _eye(camera, options)
 
 
 def plane_items(content: Content) -> list[Item]:
@@ -170,11 +172,12 @@ def _eye(camera: Camera, options: OutsideOptions) -> list[Item]:
     return [Dot("eye", "eye", eye), label] if options.basis else []
 
 
-def _basis(camera: Camera, options: OutsideOptions) -> list[Item]:
+def _basis(camera: Camera, options: OutsideOptions, arrow: float) -> list[Item]:
     """Return the basis, with what it is made from if there is a target."""
     eye, names = np.asarray(camera.eye, float), ("w", "up", "u", "v")
     share = dict(zip(names, shares(options.basis_grown, len(names)), strict=True))
-    up, w = np.asarray(options.up), np.asarray(camera.w)
+    up, w = arrow * np.asarray(options.up), arrow * np.asarray(camera.w)
+    length = "" if arrow == 1 else f"{arrow:g} "
     has_target = options.target is not None
     lengths = float(np.linalg.norm(up) * np.linalg.norm(w))
     fails = has_target and float(np.linalg.norm(np.cross(up, w))) < 1e-9 * lengths
@@ -182,8 +185,8 @@ def _basis(camera: Camera, options: OutsideOptions) -> list[Item]:
     axes: tuple[Role, ...] = ("w",) if fails else ("u", "v", "w")
     for name in axes if options.basis else ():
         if share[name]:
-            tip = eye + share[name] * np.asarray(getattr(camera, name))
-            items += named_arrow(name, name, f"vec({name})", eye, tip)
+            tip = eye + share[name] * arrow * np.asarray(getattr(camera, name))
+            items += named_arrow(name, name, f"{length}vec({name})", eye, tip)
     if has_target:
         items += _target(eye, np.asarray(options.target, float), share["up"] * up)
     if not has_target or not options.basis:  # an exercise asks for it
@@ -195,7 +198,7 @@ def _basis(camera: Camera, options: OutsideOptions) -> list[Item]:
     if share["u"]:
         spanned = np.array([eye, eye + up, eye + up + w, eye + w])
         items.append(Face("up and w", "extra", spanned, 0.16 * share["u"]))
-    return items + _right_angles(camera) if share["v"] == 1 else items
+    return items + _right_angles(camera, arrow) if share["v"] == 1 else items
 
 
 def _target(eye: Floats, target: Floats, up: Floats) -> list[Item]:
@@ -209,9 +212,9 @@ def _target(eye: Floats, target: Floats, up: Floats) -> list[Item]:
     ]
 
 
-def _right_angles(camera: Camera) -> list[Item]:
+def _right_angles(camera: Camera, arrow: float) -> list[Item]:
     """Mark the right angles of the basis."""
-    eye, axes = np.asarray(camera.eye), RIGHT_ANGLE * camera.basis.T
+    eye, axes = np.asarray(camera.eye), RIGHT_ANGLE * arrow * camera.basis.T
     items: list[Item] = []
     for a, b in zip(axes, np.roll(axes, -1, axis=0), strict=True):
         if abs(a @ b) < 1e-6 * float(np.linalg.norm(a) * np.linalg.norm(b)):

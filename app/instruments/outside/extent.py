@@ -14,19 +14,32 @@ from lucida.renderer.camera.checks import LARGEST, Floats, three
 from lucida.renderer.system.errors import LucidaError
 
 FOV_Y_DEG = 50.0
+LARGE_REACH = 30.0  # in whose picture an arrow of length 1 is short
 MARGIN = (1.08, 1.08)  # the picture's width and height, in those of what it must hold
 # From which side one looks, in the other camera's terms: its right, the world's up, its back.
 FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.75, 0.5, 1.25
 
 
-def around(points: Floats, *cameras: Camera) -> Floats:
+def arrow_length(reach: float) -> float:
+    """Return the length of a unit vector's arrow: 1, or a power of ten in a scene that is much
+    smaller or larger.
+
+    reach: of the scene, see Focus.
+    """
+    is_usual = 1 <= reach <= LARGE_REACH or reach <= 0
+    return 1.0 if is_usual else 10.0 ** math.floor(math.log10(reach))
+
+
+def around(points: Floats, arrow: float, *cameras: Camera) -> Floats:
     """Return the points (n, 3) with those around cameras: eyes, image planes, bases with
     letters.
+
+    arrow: from arrow_length().
     """
     parts = [points]
     for camera in cameras:
         eye = np.asarray(camera.eye)
-        tips = [eye + 1.2 * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
+        tips = [eye + 1.2 * arrow * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
         image = plane_corners(camera)
         if not has_plane(camera):
             image = image_point(camera, *border(camera).T)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from lucida.app.instruments.outside.actions import DIAGRAM, OUTSIDE
+from lucida.app.instruments.outside.actions import OUTSIDE
 from lucida.app.instruments.outside.view import OutsideView
 
 
 class Outside(OutsideView):
-    actions = (*DIAGRAM, *OUTSIDE)
+    actions = OUTSIDE
     synonyms = {
         "Show basis": "axes u v w",
         "Show volume": "frustum",
@@ -18,6 +18,5 @@ class Outside(OutsideView):
         "Handles: move plane": "gizmo distance focal length",
         "Handles: turn up": "gizmo rotate roll",
         "Fit all": "zoom extents",
-        "Export figure as SVG...": "vector drawing diagram",
         "Outside view": "3d world frustum wireframe scene",
     }

@@ -15,7 +15,13 @@ from imgui_bundle import ImVec2
 
 from lucida.app.images.ray_pictures import RayPainter, RayPictures
 from lucida.app.instruments.outside.diagram import RayEnd
-from lucida.app.instruments.outside.extent import around, framed, outside_camera, way_of
+from lucida.app.instruments.outside.extent import (
+    around,
+    arrow_length,
+    framed,
+    outside_camera,
+    way_of,
+)
 from lucida.app.instruments.outside.frustum import bundle_pixels
 from lucida.app.instruments.outside.mouse import Area, Scope
 from lucida.app.instruments.outside.screen import NEAREST, OutsideScreen
@@ -86,7 +92,7 @@ class Scopes:
             scope is not None
             and (self.moves or held)
             and looking is None
-            and self._is_in_picture(inner, scope.shown)
+            and self._is_in_picture(inner, scope.shown, arrow_length(host.focus.reach))
         )
         self.waits = stays and self.moves and inner != self._inner
         if scope is None or not (stays or inner == self._inner):
@@ -98,10 +104,13 @@ class Scopes:
 _kept_image_from_world = lru_cache(maxsize=1)(Camera.image_from_world)
 
 
-def is_in_picture(camera: Camera, looking: Camera) -> bool:
-    """Return True if a camera's eye, basis and image plane are in the picture of another one."""
+def is_in_picture(camera: Camera, looking: Camera, arrow: float = 1.0) -> bool:
+    """Return True if a camera's eye, basis and image plane are in the picture of another one.
+
+    arrow: from arrow_length().
+    """
     matrix = _kept_image_from_world(looking, (2, 2))  # it stays while the other one is dragged
-    x, y, t = matrix[:, :3] @ around(NOTHING, camera).T + matrix[:, 3:]
+    x, y, t = matrix[:, :3] @ around(NOTHING, arrow, camera).T + matrix[:, 3:]
     edge = 1.0 if looking.is_parallel else t
     return bool((np.maximum(abs(x), abs(y)) <= edge).all())
 
@@ -218,6 +227,5 @@ def _points(host: Host, more: Floats) -> Floats:
     file, and more.
     """
     home = host.state.scene.view.for_size(host.renderers.size)
-    return around(
-        np.concatenate([host.focus.framed, more]), home, host.renderers.camera(host.state)
-    )
+    points, arrow = np.concatenate([host.focus.framed, more]), arrow_length(host.focus.reach)
+    return around(points, arrow, home, host.renderers.camera(host.state))

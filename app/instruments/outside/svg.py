@@ -107,14 +107,22 @@ def _element(
         look += f' stroke-dasharray="{lengths}" stroke-linecap="butt"'
     path = "".join(f"M{_points(piece)}" for piece in part.pieces)
     line = f'<path d="{path}"{look}/>'
+    if (casing := casing_of(part, figure)) is None:
+        return line
+    color, opacity, wide = casing
+    look = f' stroke="{_hex(color)}" stroke-opacity="{opacity}" stroke-width="{_number(wide)}"'
+    return f'<path d="{path}"{look}/>\n{line}'
+
+
+def casing_of(part: Line, figure: Figure) -> tuple[Color, float, float] | None:
+    """Return the colour, the opacity and the width of what separates a line from the scene and from
+    other lines; None for a line without.
+    """
     is_pale = part.dashed or part.opacity < PALEST or part.width <= figure.unit
     if is_pale or figure.image is None:
-        return line
-    ground = figure.ground or WHITE
-    casing = WHITE if min(ground) > 0.5 else BLACK  # separates it from the scene and other lines
-    width = _number(part.width + CASING * figure.unit)
-    look = f' stroke="{_hex(casing)}" stroke-opacity="0.6" stroke-width="{width}"'
-    return f'<path d="{path}"{look}/>\n{line}'
+        return None
+    is_light = min(figure.ground or WHITE) > 0.5
+    return WHITE if is_light else BLACK, 0.6, part.width + CASING * figure.unit
 
 
 def _text(part: Label, ground: str) -> str:

@@ -27,7 +27,7 @@ from lucida.app.instruments.outside.cloud import Cloud
 from lucida.app.instruments.outside.cloud_layer import CloudLayer
 from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extensions import Extension, Extensions
-from lucida.app.instruments.outside.extent import end_parameter
+from lucida.app.instruments.outside.extent import arrow_length, end_parameter
 from lucida.app.instruments.outside.frustum import pixel_seen, plane_corners
 from lucida.app.instruments.outside.gizmo import Gizmo
 from lucida.app.instruments.outside.ground import Ground, GroundPicture
@@ -334,6 +334,7 @@ class OutsideView(Instrument):
             number_step=None if host.has_tools or not options.grid else step,
             meetings=found,
             names_t=host.has_tools,
+            arrow=arrow_length(host.focus.reach),
         )
 
 

@@ -210,8 +210,9 @@ def test_one_mistake():
     assert names(found) == [{"rows count upwards"}]
     assert found.sentences == (
         "Rows count downwards, `camera.v` points up: `y` needs its minus sign.",
-        "As if it read `y = camera.bottom + (i + 0.5) / height * (camera.top - camera.bottom)`, "
-        "not `y = camera.top - (i + 0.5) / height * (camera.top - camera.bottom)`.",
+        "Your code behaves like "
+        "`y = camera.bottom + (i + 0.5) / height * (camera.top - camera.bottom)`, not "
+        "`y = camera.top - (i + 0.5) / height * (camera.top - camera.bottom)`.",
         "Read again: From pixel to (u, v).",
     )
 

@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from lucida.app.checking.cases import shots
-from lucida.app.checking.conventions import Conventions
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds.viewing_ray import are_right
 from lucida.app.checking.task_file import BUILTIN
+from lucida.app.checking.tasks import CheckCase
 
 KIND = KINDS["viewing-ray"]
 TASK = next(task for task in BUILTIN if task.name == "viewing-ray")
@@ -80,9 +80,8 @@ RAY = SHOT.camera.ray(1, 2, SHOT.size)
 def test_any_positive_length_is_right(length):
     unit = RAY.direction / np.linalg.norm(RAY.direction)
     made = np.array([[RAY.origin, unit * length], [RAY.origin, -unit * length]])
-    right = np.array([RAY, RAY])
-    near = np.full((2, 2), 1e-9)
-    assert are_right(Conventions(), right, made, near).tolist() == [True, False]
+    cases = [CheckCase((), np.array(RAY), (1e-9, 1e-9))] * 2
+    assert are_right(cases, made, unit=False).tolist() == [True, False]
 
 
 def test_cases_follow_from_the_seed_and_begin_with_the_simplest():

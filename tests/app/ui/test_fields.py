@@ -58,3 +58,9 @@ def test_a_number_of_parts_has_no_decimals() -> None:
     for value, room, shown in ((96.0, 20, "96"), (1000.0, 6, "1000"), (48.0, 2, "48")):
         assert shown_number(value, room, 0).strip() == shown
     assert shown_number(2.5, 20, 0).strip() == "2.5"
+
+
+def test_a_small_scene_s_numbers_keep_their_digits() -> None:
+    assert shown_number(0.000757835, 8).strip() == "0.0008"
+    assert shown_number(0.000757835, 8, is_fine=True) == "7.578e-4"
+    assert shown_number(-0.00025, 8, is_fine=True) == "-0.00025"

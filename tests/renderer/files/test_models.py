@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from lucida.renderer.files import load_scene
 from lucida.renderer.files.models.models import load_model
 from lucida.renderer.files.models.parts import Part, build_mesh, linear_colors
 from lucida.renderer.scene import Mesh, SceneObject, framing, shapes
+from lucida.renderer.scene.focus import object_corners
 from lucida.renderer.system.errors import LucidaError
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
@@ -48,6 +50,17 @@ def corners(mesh: Mesh) -> np.ndarray:
 
 
 # All formats.
+
+
+@pytest.mark.parametrize("size", [1e-3, 0.15, 1.0, 1e3])
+def test_the_image_plane_is_framed_between_the_eye_and_the_model(size: float) -> None:
+    model = SceneObject(replace(shapes.torus(), transform=np.diag([size, size, size, 1.0])))
+    camera = framing.framing_view([model]).camera
+    nearest = min(camera.project(one, (1, 1)).parameter for one in object_corners(model))
+    assert 1.2 < nearest < 5  # in distances of the image plane
+    side = camera.viewport[1] - camera.viewport[0]
+    assert f"{side:.0e}"[0] in "125"
+    assert np.isclose(side, float(f"{side:.0e}"))
 
 
 @pytest.mark.parametrize("ending", ENDINGS)

@@ -6,9 +6,11 @@ from collections import defaultdict
 
 import numpy as np
 import pytest
+import trimesh
 
 from lucida.app.instruments.objects import silhouette
-from lucida.app.instruments.objects.silhouette import outline_of, outlines_of
+from lucida.app.instruments.objects.silhouette import outer, outline_of, outlines_of
+from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Mesh, SceneObject, Sphere
@@ -69,7 +71,7 @@ def by_definition(mesh: Mesh, camera: Camera) -> tuple[set, set]:
 
 
 def drawn(mesh: Mesh, camera: Camera) -> set:
-    segments = outline_of(SceneObject(mesh, Material()), camera)
+    segments, _ = outline_of(SceneObject(mesh, Material()), camera)
     back = np.linalg.inv(mesh.transform)
     local = segments @ back[:3, :3].T + back[:3, 3]
     places = {tuple(place) for place in mesh.vertices.tolist()}
@@ -98,14 +100,14 @@ def test_what_is_flat_or_without_area_is_no_trouble():
     places = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 0, 0]], np.float32)
     faces = np.array([[0, 1, 2], [0, 1, 3], [0, 4, 3], [1, 1, 1]], np.int32)
     for camera in CAMERAS:
-        segments = outline_of(SceneObject(Mesh(places, faces), Material()), camera)
+        segments, _ = outline_of(SceneObject(Mesh(places, faces), Material()), camera)
         assert np.isfinite(segments).all()
         assert len(segments)
 
 
 def test_a_large_mesh_has_its_box():
     mesh = sheet(np.random.default_rng(3), 0.0)
-    segments = outline_of(SceneObject(mesh, Material()), CAMERAS[0], len(mesh.faces) - 1)
+    segments, _ = outline_of(SceneObject(mesh, Material()), CAMERAS[0], len(mesh.faces) - 1)
     assert segments.shape == (12, 2, 3)
     back = np.linalg.inv(mesh.transform)
     corners = segments.reshape(-1, 3) @ back[:3, :3].T + back[:3, 3]
@@ -116,7 +118,7 @@ def test_a_large_mesh_has_its_box():
 @pytest.mark.parametrize("camera", CAMERAS, ids=["perspective", "parallel"])
 def test_a_sphere_s_ring_is_where_rays_graze_it(camera):
     ball = Sphere(center=(0.2, 0.1, -0.3), radius=0.8)
-    segments = outline_of(SceneObject(ball, Material()), camera)
+    segments, _ = outline_of(SceneObject(ball, Material()), camera)
     points = segments.reshape(-1, 3)
     normal = points - ball.center
     assert np.allclose(np.linalg.norm(normal, axis=1), 0.8, atol=1e-6)
@@ -126,5 +128,34 @@ def test_a_sphere_s_ring_is_where_rays_graze_it(camera):
 
 def test_many_objects_have_their_boxes():
     entries = [SceneObject(box(), Material())] * (silhouette.MOST_EXACT + 1)
-    assert outlines_of(entries, CAMERAS[0]).shape == (12 * len(entries), 2, 3)
-    assert outlines_of(entries[1:], CAMERAS[0]).shape[0] < 12 * len(entries[1:])
+    assert all(len(one.segments) == 12 for one in outlines_of(entries, CAMERAS[0]))
+    assert all(len(one.segments) < 12 for one in outlines_of(entries[1:], CAMERAS[0]))
+
+
+@pytest.mark.parametrize("height", [1.2, 9.0])
+def test_on_the_screen_an_outline_has_nothing_of_its_object_on_one_side(height):
+    torus = trimesh.creation.torus(1.0, 0.5)
+    mesh = Mesh(np.float32(torus.vertices), np.int32(torus.faces))
+    camera = Camera.look_at((0, height, 3), (0, 0, 0), fov_y_deg=50)
+    screen, size = OutsideScreen(camera, (480, 480)), (480, 480)
+    corners, _ = screen.spots(mesh.vertices.astype(float)[mesh.faces])
+    segments, layers = outline_of(SceneObject(mesh, Material()), camera)
+    lines, _, numbers = screen.segments(segments)
+    left, right = (covered(lines, corners, aside) for aside in (-1.5, 1.5))
+    assert (left & right).any() == (height > 2)  # the near side covers the hole's edge
+    pieces = outer(lines, layers[numbers], size)
+    left, right = (covered(pieces, corners, aside) for aside in (-1.5, 1.5))
+    assert (left != right).mean() > 0.97
+    away = np.linalg.norm(pieces.mean(axis=1) - 240, axis=1)
+    assert (away.min() < 0.45 * away.max()) == (height < 2)  # one looks through the hole
+
+
+def covered(pieces: np.ndarray, triangles: np.ndarray, aside: float) -> np.ndarray:
+    """Whether the point beside the middle of each piece (n, 2, 2) is in a triangle (m, 3, 2)."""
+    way = pieces[:, 1] - pieces[:, 0]
+    way /= np.linalg.norm(way, axis=1, keepdims=True)
+    spots = pieces.mean(axis=1) + aside * np.stack([-way[:, 1], way[:, 0]], axis=1)
+    start, side = triangles, np.roll(triangles, -1, axis=1) - triangles
+    to = spots[:, None, None] - start
+    signs = side[..., 0] * to[..., 1] - side[..., 1] * to[..., 0]
+    return ((signs > 0).all(axis=2) | (signs < 0).all(axis=2)).any(axis=1)

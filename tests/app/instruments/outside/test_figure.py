@@ -24,6 +24,7 @@ from lucida.app.instruments.outside.figure import (
     with_picture,
 )
 from lucida.app.instruments.outside.frustum import pixel_corners, plane_corners
+from lucida.app.instruments.outside.png import painted
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
 from lucida.app.instruments.outside.svg import svg
@@ -200,3 +201,23 @@ def test_dashes_have_the_lines_length_in_turn() -> None:
     lengths = [np.linalg.norm(np.diff(dash, axis=0), axis=1).sum() for dash in found]
     assert lengths == [5, 5, 5]
     assert found[1].tolist() == [[9, 0], [12, 0], [12, 2]]  # around the corner
+
+
+@pytest.mark.parametrize("ground", [None, (1.0, 1.0, 1.0)])
+def test_pixels_show_the_same_parts_over_the_ground(ground: Any) -> None:
+    items: list[Item] = [
+        Segments("line", "ray", np.array([[[-1.0, 0, 0], [1, 0, 0]]]), 4.0),
+        Label("name", "text", "ray", np.array([0.0, 0.6, 0])),
+    ]
+    pixels = painted(drawn(items, STRAIGHT, ground=ground))
+    assert pixels.shape == (*SIZE[::-1], 4)
+    corners = pixels[[0, 0, -1, -1], [0, -1, 0, -1]]
+    assert (corners == 255).all() if ground else (corners[:, 3] == 0).all()
+    opaque = pixels[..., 3] if ground is None else 255 - pixels[..., :3].min(axis=2)
+    rows, columns = np.nonzero(opaque > 127)
+    assert abs(np.median(rows) - SIZE[1] / 2) < 30
+    across = columns[abs(rows - SIZE[1] / 2) < 2]
+    start, end = project(items, OutsideScreen(STRAIGHT, SIZE))[0].points[0, :, 0]  # type: ignore[union-attr]
+    assert abs(across.min() - start) < 4
+    assert abs(across.max() - end) < 4
+    assert (rows < SIZE[1] / 2 - 10).any()  # the letters

@@ -15,7 +15,8 @@ from looked_at import SIZE, cameras, looking_cameras, vectors
 
 from lucida.app.images.ray_pictures import RayPainter
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
-from lucida.app.instruments.outside.diagram import RayEnd, Segments
+from lucida.app.instruments.outside.diagram import Arrow, Label, RayEnd, Segments
+from lucida.app.instruments.outside.extent import arrow_length
 from lucida.app.instruments.outside.gizmo import (
     gl_matrices,
     nearest_rotation,
@@ -46,6 +47,16 @@ class TestDiagram:
             "ray": {"ray", "pixel", "hit", "beyond"},
         }.items():
             assert names <= self.names(camera, replace(none, **{field: True}), marked=hit), field
+
+    @pytest.mark.parametrize("reach", [2e-3, 0.42, 3.0, 29.0, 2e3])
+    def test_arrows_have_a_readable_length_that_their_names_state(self, reach: float) -> None:
+        camera, arrow = Camera.canonical(), arrow_length(reach)
+        items = diagram(Content(camera, SIZE, OutsideOptions(), 9.0, arrow=arrow))
+        (tip,) = (item.end for item in items if isinstance(item, Arrow) and item.name == "u")
+        (label,) = (item.text for item in items if isinstance(item, Label) and item.name == "u")
+        assert np.allclose(tip, arrow * np.asarray(camera.u))
+        assert label == ("vec(u)" if arrow == 1 else f"{arrow:g} vec(u)")
+        assert 0.03 < arrow / reach <= 1
 
     def test_near_and_far_are_drawn_where_they_are_set(self) -> None:
         camera = replace(Camera.canonical(), near=2.0, far=4.0)

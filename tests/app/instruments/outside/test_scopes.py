@@ -33,7 +33,7 @@ def made(monkeypatch):
     return found
 
 
-def is_near(camera, shown):
+def is_near(camera, shown, arrow):
     return isinstance(camera, int) and abs(camera - shown) < REACH
 
 
@@ -41,7 +41,8 @@ def host(inner, own=None):
     options = OutsideOptions(camera=own)
     state = SimpleNamespace(scene="scene", step=None, options=SimpleNamespace(outside=options))
     renderers = SimpleNamespace(camera=lambda _: inner, size=(40, 30))
-    return SimpleNamespace(inner=inner, state=state, renderers=renderers)
+    focus = SimpleNamespace(reach=1.0)
+    return SimpleNamespace(inner=inner, state=state, renderers=renderers, focus=focus)
 
 
 def test_nothing_is_computed_twice(made):

@@ -12,7 +12,7 @@ from lucida.app.cli import main
 from lucida.app.lecture.exercises import RayExercise
 from lucida.app.lecture.reading import lecture_from_toml
 from lucida.app.lecture.text import parse
-from lucida.app.web.lecture import pdf
+from lucida.app.web import pdf
 from lucida.app.web.lecture.mathml import inline
 from lucida.app.web.lecture.page import Still, page
 from lucida.app.web.lecture.text import blocks_html

@@ -31,7 +31,7 @@ def browser() -> str:
         if found := shutil.which(name):
             return found
     raise LucidaError(
-        "--export", "as PDF needs Chromium or Chrome", "install it, or print lecture.html yourself"
+        "PDF", "needs Chromium or Chrome", "install it, or print the .html or .svg yourself"
     )
 
 
@@ -49,5 +49,5 @@ def pdf(html: str, program: str) -> bytes:
             return printed.read_bytes()
         except (OSError, subprocess.TimeoutExpired):
             raise LucidaError(
-                "--export", f"{Path(program).name} did not print", "print lecture.html yourself"
+                "PDF", f"{Path(program).name} did not print", "print the .html or .svg yourself"
             ) from None

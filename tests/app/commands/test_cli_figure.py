@@ -1,0 +1,60 @@
+"""`lucida figure`: what it writes, and how it fails."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from lucida.app.cli import main
+
+SPACE = "{http://www.w3.org/2000/svg}"
+
+
+def figure(folder: Path, *arguments: str) -> None:
+    """Run the command in a process of its own, because it draws a window."""
+    command = [sys.executable, "-P", "-m", "lucida", "figure", "spheres", "--size", "320x240"]
+    done = subprocess.run(
+        [*command, *arguments], cwd=folder, env=os.environ, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("ground", ["white", "transparent"])
+def test_the_outside_view_has_its_size_its_ground_and_its_labels(tmp_path, ground):
+    figure(tmp_path, "-o", "a.png", "--ground", ground)
+    pixels = np.asarray(Image.open(tmp_path / "a.png"))
+    assert pixels.shape == (240, 320, 4)
+    corners = pixels[[0, 0], [0, -1]]
+    assert (corners == 255).all() if ground == "white" else (corners[:, 3] == 0).all()
+    assert (pixels[..., 3] == 255).mean() > 0.2
+    figure(tmp_path, "-o", "a.svg", "--ground", ground, "--mark", "120,160")
+    root = ElementTree.parse(tmp_path / "a.svg").getroot()
+    assert (root.get("width"), root.get("height")) == ("320", "240")
+    assert {"u", "v", "w", "e"} <= {"".join(one.itertext()) for one in root.iter(f"{SPACE}text")}
+    assert bool(list(root.iter(f"{SPACE}rect"))) == (ground == "white")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["-o", "a.gif"], "is not a figure's name"),
+        (["-o", "a.png", "--what", "probe"], "add --mark"),
+        (["-o", "a.png", "--mark", "999,0"], "outside of the image"),
+        (["-o", "a.png", "--mark", "one"], "is not a pixel"),
+        (["-o", "a.png", "--scale", "90"], "is not a scale"),
+    ],
+)
+def test_a_mistake_costs_one_line(tmp_path, monkeypatch, capsys, arguments, told):
+    monkeypatch.chdir(tmp_path)
+    assert main(["figure", "spheres", "--size", "320x240", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert told in error
+    assert error.count("\n") == 1
+    assert not list(tmp_path.iterdir())
