@@ -46,11 +46,8 @@ def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppS
 
 def with_magnification(state: AppState, magnification: float | None) -> AppState:
     """Magnify about the centre; None: show the whole image."""
-    if magnification is None:
-        return state.with_options(
-            replace(state.options.images, magnification=None, center=(0.5, 0.5))
-        )
-    return state.with_options(replace(state.options.images, magnification=float(magnification)))
+    center = (0.5, 0.5) if magnification is None else state.images.center
+    return state.with_options(replace(state.images, magnification=magnification, center=center))
 
 
 def resolution_text(options: ImageOptions) -> str:
