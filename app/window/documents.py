@@ -161,8 +161,7 @@ class Documents:
         width = min(float(texture.width), imgui.get_content_region_avail().x)
         image.texture_id = texture.glo
         image.size = ImVec2(width, width * texture.height / texture.width)
-        image.uv0, image.uv1 = ImVec2(0, 0), ImVec2(1, 1)
-        image.col_tint, image.col_border = theme.rgb("#ffffff"), theme.rgb("#000000", 0.0)
+        image.uv1, image.col_tint = ImVec2(1, 1), theme.rgb("#ffffff")
         return image
 
     def _load(self, name: str) -> moderngl.Texture | None:

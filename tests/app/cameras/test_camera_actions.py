@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from lucida.app.cameras.camera_panel import actions as camera_actions
@@ -70,6 +71,17 @@ def run(window: Window, name: str) -> None:
     next(action for action in (*CAMERA, *EDIT) if action.name == name).run(window)
 
 
+def test_look_there_turns_the_camera_or_says_why_not(window: Window) -> None:
+    eye = window.state.camera.eye
+    camera_actions.look_there(window, (0.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    camera = window.state.camera
+    assert camera.eye == eye
+    assert camera.project(np.zeros((1, 3)), (3, 3)).row[0] == pytest.approx(1.0)
+    camera_actions.look_there(window, (0.0, 0.0, 0.0), eye)
+    assert window.state.camera == camera
+    assert "along the view direction" in window.message
+
+
 def test_no_two_actions_have_a_key() -> None:
     chords = Counter(chord for action in ACTIONS for chord in action.chords)
     assert [chord for chord, count in chords.items() if count > 1] == []
@@ -118,14 +130,14 @@ def test_framing_keeps_the_directions(window: Window) -> None:
 
 def test_copy_and_paste(window: Window, clipboard: list[str]) -> None:
     start = window.state
-    for name in ("Copy camera", "View file", "Command line"):
+    for name in ("Copy camera", "View file"):
         run(window, name)
         run(window, "Canonical camera")
         run(window, "Paste camera")
         assert window.state == start
-    assert len(window.said) == 6
-    run(window, "Command line")
-    assert clipboard[0].startswith("lucida render spheres -o ")
+    assert len(window.said) == 4
+    run(window, "Python")
+    assert clipboard[0].startswith("from lucida import Camera")
 
 
 def test_a_clipboard_without_a_camera_is_told_and_changes_nothing(
