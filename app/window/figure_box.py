@@ -21,8 +21,8 @@ from lucida.app.window.figures import (
     Ground,
     What,
     check_ending,
+    encoder,
     figure_of,
-    written,
 )
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.atomic import atomic_write, file_stem
@@ -134,16 +134,19 @@ class FigureBox:
         endings = (*ENDINGS, ".tex") if choice.what == "probe" else ENDINGS
         name = f"{file_stem(host.state.scene.name) or 'scene'}-{choice.what}{endings[0]}"
 
-        def named(path: str) -> None:
-            try:
-                content = written(host, choice, check_ending(path))
-                with atomic_write(path) as file:
-                    file.write(content)
-                host.files.say(f"Saved {path}, {len(content)} bytes.")
-            except (LucidaError, moderngl.Error) as error:
-                host.files.message = describe(error)
+        try:
+            content = encoder(host, choice)
+        except (LucidaError, moderngl.Error) as error:
+            host.files.message = describe(error)
+            return
 
-        host.files.ask_name("Export the figure", name, ("Figures", *endings), named)
+        def store(path: str) -> str:
+            written = content(check_ending(path))
+            with atomic_write(path) as file:
+                file.write(written)
+            return f"Saved {path}, {len(written)} bytes."
+
+        host.files.save_as_dialog("Export the figure", name, ("Figures", *endings), store)
 
 
 def ask_figure(host: Host) -> None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -72,19 +74,27 @@ def figure_of(host: Host, choice: FigureChoice) -> Figure:
     return Figure(choice.size, tuple(parts), choice.scale, ground)
 
 
-def written(host: Host, choice: FigureChoice, ending: str) -> bytes:
-    """Return the file of a figure. Raises LucidaError, moderngl.Error."""
+def encoder(host: Host, choice: FigureChoice) -> Callable[[str], bytes]:
+    """Return a function that makes a figure's file for an ending, on any thread.
+
+    Raises LucidaError, moderngl.Error.
+    """
+    figure, name = figure_of(host, choice), host.state.scene.name
+    is_probe = choice.what == "probe"
+    latex = as_latex(_reading(host), host.options.indexing) if is_probe else ""
+    return partial(_encoded, figure, f"{name}: {choice.what}" if name else choice.what, latex)
+
+
+def _encoded(figure: Figure, title: str, latex: str, ending: str) -> bytes:
     if ending == ".tex":
-        if choice.what != "probe":
+        if not latex:
             raise LucidaError(ending, "is for the probe's formulas", f"give {', '.join(ENDINGS)}")
-        return as_latex(_reading(host), host.options.indexing).encode()
-    figure = figure_of(host, choice)
+        return latex.encode()
     if ending == ".png":
         file = io.BytesIO()
         Image.fromarray(painted(figure)).save(file, "PNG")
         return file.getvalue()
-    name = host.state.scene.name
-    drawing = svg(figure, f"{name}: {choice.what}" if name else choice.what)
+    drawing = svg(figure, title)
     if ending != ".pdf":
         return drawing.encode()
     width, height = figure.size

@@ -17,7 +17,7 @@ from lucida.app.state.paths import stored
 from lucida.app.ui import layout
 from lucida.app.ui.surface import Target
 from lucida.app.window.capture import free_path
-from lucida.app.window.figures import FigureChoice, written
+from lucida.app.window.figures import FigureChoice, encoder
 from lucida.app.window.platform import Platform, start_platform
 from lucida.app.window.start import begin_scene, begin_session, kept
 from lucida.app.window.viewer import WindowRun
@@ -125,7 +125,7 @@ def draw_figure(
             window.show_in(*SHOWN_IN[choice.what])
         quiet = quiet + 1 if window.settled and frames > LAID_OUT else 0
         if quiet > LAID_OUT and not content:
-            content = written(window, choice, ending)
+            content = encoder(window, choice)(ending)
             run.params.app_shall_exit = True
 
     run.on_drawn = drawn

@@ -1,4 +1,4 @@
-"""The outside view's actions: switches, handles, and directions to look from.
+"""The outside view's actions: switches, handles, and where to look from.
 
 The view's own menu and the menu Instruments have the same entries.
 """
@@ -7,15 +7,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from lucida.app.instruments.outside.looking import AXIS_NAMES
 from lucida.app.instruments.outside.tools import MENU
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.outside import STAGES
 from lucida.app.ui.action import Action, changing, choosing
-from lucida.app.ui.host import Host
-from lucida.renderer.camera.navigation import switched_projection
-from lucida.renderer.system.errors import LucidaError
 
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 
@@ -29,24 +25,6 @@ def _has_formula(state: AppState) -> bool:
     return state.options.outside.formula is not None
 
 
-def _switch_projection(host: Host) -> None:
-    view = host.view(OutsideView)
-    assert view.scope is not None
-    try:
-        view.look(host, switched_projection(view.scope.camera, host.focus.center))
-    except LucidaError:  # beyond the numbers: the camera stays
-        return
-
-
-def _is_parallel(state: AppState) -> bool:
-    camera = state.options.outside.camera
-    return camera is not None and camera.is_parallel
-
-
-def _is_drawn(host: Host) -> bool:
-    return host.view(OutsideView).scope is not None
-
-
 def _show(name: str, tip: str) -> Action:
     return choosing(MENU, f"Show {name}", f"outside.{name}", True, off=False, tip=tip)
 
@@ -57,16 +35,6 @@ def _handles(name: str, kind: str, tip: str, keys: str = "") -> Action:
         separated=kind == "move",
         can=lambda host: kind != "up" or host.state.options.outside.target is not None,
     )  # fmt: skip
-
-
-def _axis(axis: str, name: str) -> Action:
-    return Action(
-        MENU,
-        f"Look {name}",
-        lambda host: host.view(OutsideView).look_along(host, axis),
-        can=_is_drawn,
-        separated=axis == "x",
-    )
 
 
 OUTSIDE = (
@@ -104,8 +72,4 @@ OUTSIDE = (
         lambda host: host.view(OutsideView).look(host, host.renderers.camera(host.state)),
         "Shift+C",
     ),
-    Action(
-        MENU, "Parallel outside camera", _switch_projection, is_on=_is_parallel, can=_is_drawn
-    ),
-    *(_axis(axis, name) for axis, name in AXIS_NAMES.items()),
 )  # fmt: skip

@@ -105,7 +105,6 @@ def framed(
     points: Floats,
     toward: Floats,
     aspect: float,
-    projection: str = "perspective",
     up: Iterable[float] = (0.0, 1.0, 0.0),
     margin: tuple[float, float] = MARGIN,
 ) -> Camera:
@@ -136,16 +135,7 @@ def framed(
     right, top, back = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
     try:
         eye = center + offsets[0] * right + offsets[1] * top + depth * back
-        found = replace(camera, eye=three(eye))
-        if projection != "parallel":
-            return found
-        half = max(np.ptp(y) / 2 * margin[1], np.ptp(x) / 2 / aspect * margin[0], 1e-9)
-        eye = center + (x.max() + x.min()) / 2 * right + (y.max() + y.min()) / 2 * top
-        eye = eye + (float(z.max()) + radius) * back
-        return Camera(
-            three(eye), found.u, found.v, found.w, 1.0,
-            (-half * aspect, half * aspect, -half, half), "parallel",
-        )  # fmt: skip
+        return replace(camera, eye=three(eye))
     except LucidaError:  # a scene at the very ends of the numbers
         return Camera.look_at((3.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=FOV_Y_DEG, aspect=aspect)
 

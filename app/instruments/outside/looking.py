@@ -143,7 +143,7 @@ def camera_for_all(host: Host, area: Area, more: Floats = NOTHING) -> Camera:
 def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
     """Return the outside camera that looks along an axis of the world and sees everything."""
     aspect = scope.extent.x / max(scope.extent.y, 1.0)
-    return framed(_points(host, more), way_of(axis), aspect, scope.camera.projection)
+    return framed(_points(host, more), way_of(axis), aspect)
 
 
 def nearest(camera: Camera, scope: Scope) -> float:

@@ -28,6 +28,7 @@ from lucida.renderer.camera.image_plane import Size
 
 MENU = "Instruments/In the outside view"
 PAD = 6  # around the menu's button
+ALONG = 0.999  # the part of an axis that is toward the camera, if that looks along it
 GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # of the axes
 
 
@@ -68,7 +69,9 @@ def _bundle_fields(host: Host) -> None:
 
 def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
     """Draw the world's axes in the upper right corner, as the camera sees them, in gray: colours
-    are for the basis. Return the clicked one. A view that is narrower than they are has none.
+    are for the basis. A view that is narrower than they are has none.
+
+    Return the clicked one, with a minus sign if the camera looks along it already.
     """
     side, radius, ball = theme.px(TRIAD_PX), theme.px(30), theme.px(9.5)
     if extent.x < 2 * side:
@@ -79,6 +82,7 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
     clean, clicked = camera.orthonormalized(), None
     axes = zip(clean.w, "xyz", clean.u, clean.v, strict=True)
     for depth, name, across, up in sorted(axes):  # the farthest is first
+        asked = f"-{name}" if depth > ALONG else name
         spot = ImVec2(middle.x + radius * across, middle.y - radius * up)
         light = GRAYS[name] * (0.55 + 0.225 * (1 + depth))
         color = theme.u32(ImVec4(light, light, light, 1.0))
@@ -89,8 +93,8 @@ def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
         draw.add_text(at, theme.u32(theme.rgb("#101215")), name)
         imgui.set_cursor_screen_pos(ImVec2(spot.x - ball, spot.y - ball))
         if press_area(f"axis {name}##outside", ImVec2(2 * ball, 2 * ball)):
-            clicked = name
-        imgui.set_item_tooltip(f"look {AXIS_NAMES[name]}")
+            clicked = asked
+        imgui.set_item_tooltip(f"look {AXIS_NAMES[asked]}")
     return clicked
 
 

@@ -13,6 +13,7 @@ from lucida.app.cli import main
 from lucida.app.lecture.reading import load_lecture
 from lucida.app.window.files import Files, outside_question
 from lucida.app.window.opening import OpenedScene, open_sources
+from lucida.app.window.scene_saving import title
 from lucida.renderer.files import load_scene
 from lucida.renderer.files.outside import OutsideError, kept_inside, model_files, outside
 from lucida.renderer.system.errors import LucidaError
@@ -47,6 +48,7 @@ def test_what_is_inside_is_read_without_a_word(name, folder):
     scene = found(open_sources([str(path)], dropped=True), OpenedScene).scene
     assert scene is not None
     assert outside(model_files(scene), folder) == ()
+    assert title(scene) == "Lucida: scene"
 
 
 @pytest.mark.parametrize("name", ELSEWHERE)
