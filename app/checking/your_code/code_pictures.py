@@ -31,7 +31,6 @@ from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import Memo
 
 Bytes = NDArray[np.uint8]
-Floats = NDArray[np.float64]
 SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour
 SAME = "the same colours"  # though rays are wrong
 PICTURES = ("given", "right", "difference")

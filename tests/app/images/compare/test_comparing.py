@@ -90,7 +90,5 @@ def test_a_step_marks_and_magnifies(state):
 
 
 def test_effects_have_names(state):
-    assert comparing.effects_of(state) == ""
     both = with_options(state, shadows=True, mirrors=True)
     assert comparing.effects_of(both) == "shadows and mirrors"
-    assert comparing.effects_of(with_options(state, mirrors=True)) == "mirrors"
