@@ -39,14 +39,13 @@ class Verdict:
 class Agreement:
     """Compares pairs of images on its own thread.
 
-    wake: called from that thread when a verdict is there. pair: the last request, with its raster
-    image and its ray image. compared: the last request that was compared, or that failed.
+    wake: called from that thread when a verdict is there. compared: the last request that was
+    compared, or that failed.
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._comparing: Background[Verdict] = Background("lucida-compare", wake)
         self._flat: tuple[Scene, FlatScene] | None = None  # used in the thread only
-        self.pair: tuple[ImageRequest, Frame, Frame] | None = None
         self.compared: ImageRequest | None = None
         self.verdict: Verdict | None = None
         self.error: Exception | None = None
@@ -58,7 +57,7 @@ class Agreement:
     def submit(self, image: RayImage, raster: Frame) -> None:
         """Compare a full ray image with the raster image of the same request."""
         request, ray = image.request, image.frame
-        self.pair, self.compared, self.error = (request, raster, ray), request, None
+        self.compared, self.error = request, None
         self._comparing.submit(lambda: self._compare(request, raster, ray))
 
     def fail(self, request: ImageRequest, error: Exception) -> None:

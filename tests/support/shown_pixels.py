@@ -10,6 +10,7 @@ from window_driver import Driver, Key
 from lucida.app.images.pair.view import RASTER
 from lucida.app.images.placement import Placement
 from lucida.renderer.images.display import picture
+from lucida.renderer.images.frame import Frame
 
 ALT, CTRL, SHIFT = Key.mod_alt, Key.mod_ctrl, Key.mod_shift
 MENU = "//##MainMenuBar/Image"
@@ -31,20 +32,23 @@ def without_overlays(image: np.ndarray) -> np.ndarray:
     return image[height // 4 : -height // 3, width // 4 : -width // 4]
 
 
+def _frame(d: Driver, name: str) -> Frame:
+    comparison = d.renderers.agreement.verdict.comparison
+    return comparison.raster if name == RASTER else comparison.ray
+
+
 def pixels(d: Driver, name: str, channel: str) -> np.ndarray:
     """Return what the middle of a fitted image must show: its own channel, as saved pictures have
     it.
     """
-    request = d.renderers.agreement.pair
-    frame = request[1 if name == RASTER else 2]
-    return without_overlays(picture(frame, channel).astype(np.int16))
+    return without_overlays(picture(_frame(d, name), channel).astype(np.int16))
 
 
 def magnified(d: Driver, name: str, channel: str) -> np.ndarray:
     """Return an image whose pixels are magnified by a whole number."""
-    at, request = placement(d, name), d.renderers.agreement.pair
-    frame, factor = request[1 if name == RASTER else 2], round(at.magnification)
-    large = picture(frame, channel).repeat(factor, axis=0).repeat(factor, axis=1)
+    at = placement(d, name)
+    factor = round(at.magnification)
+    large = picture(_frame(d, name), channel).repeat(factor, axis=0).repeat(factor, axis=1)
     (left, top, right, bottom), (x, y) = at.visible, at.origin
     return large[top - y : bottom - y, left - x : right - x].astype(np.int16)
 

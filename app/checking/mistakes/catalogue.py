@@ -117,5 +117,6 @@ def _mistakes(row: _Row, title: str, values: Values, wrong: Swaps) -> list[Mista
     if row.alone:
         for line, word in zip(wrong, ("column", "row"), strict=True):
             name = f"{row.name}: in the {word}s"
-            made.append(Mistake(name, (line,), f"Of the {word}: {hint}", title, is_common=False))
+            told = f"In the {word}s alone: {hint}"
+            made.append(Mistake(name, (line,), told, title, is_common=False))
     return made

@@ -124,8 +124,6 @@ class CodeRuns:
         """End the file's process."""
         self.forget()
         self._background.close()
-        if self._student is not None:
-            self._student.close()
 
     def _wanted(self) -> Callable[[FileStudent], CodeReport] | None:
         """Return the next run; None if everything that is asked for is known."""

@@ -1,24 +1,16 @@
-"""The pictures of the compare view, as arrays: false colours, and marks on pixels. Pure."""
+"""The marks on the pixels that differ, as a picture. Pure."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.state.options.shared import Channel
 from lucida.renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING
-from lucida.renderer.images.difference import false_color, signed_difference
-from lucida.renderer.images.frame import Frame
 
 Bytes = NDArray[np.uint8]
 RIM = 250  # a label: the dark border of a mark
 MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
 LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pixel larger each way
-
-
-def difference_picture(raster: Frame, ray: Frame, channel: Channel, gain: float) -> Bytes:
-    """Return the difference in a channel as colours, uint8 (H, W, 3)."""
-    return false_color(signed_difference(raster, ray, channel), channel, gain)
 
 
 def marked_picture(labels: Bytes, is_large: bool) -> Bytes:

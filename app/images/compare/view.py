@@ -14,7 +14,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.images.compare import comparing, panel
 from lucida.app.images.compare.actions import COMPARING
-from lucida.app.images.compare.pictures import Bytes, difference_picture, marked_picture
+from lucida.app.images.compare.pictures import Bytes, marked_picture
 from lucida.app.images.pair.pane import Pane
 from lucida.app.images.pair.view import ImageView, RasterView
 from lucida.app.images.placement import Placement
@@ -30,7 +30,7 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.uploads import Uploads
-from lucida.renderer.images.frame import Frame
+from lucida.renderer.compare.raster_and_ray import Comparison
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
 
@@ -54,8 +54,8 @@ class CompareView(ImageView):
     def __init__(self, views: Sequence[Instrument]) -> None:
         super().__init__(view_of(views, RasterView).linked)
         self._uploads: Uploads | None = None
-        self._work: Background[tuple[Frame, Bytes]] = Background("lucida-difference")
-        self._made: tuple[Frame, Bytes] | None = None  # the last difference, and its ray image
+        self._work: Background[tuple[Comparison, Bytes]] = Background("lucida-difference")
+        self._made: tuple[Comparison, Bytes] | None = None  # the last difference, and what it is of
         self._marks = Memo(marked_picture)
         self._held: float | None = None  # where in the divider the mouse took it
         self.screen: Screen | None = None  # where the image is
@@ -157,12 +157,12 @@ class CompareView(ImageView):
 
     def _difference(self, both: Renderers, state: AppState) -> Bytes | None:
         """Return the difference of the images of this state, which is made in the background."""
-        pair = both.agreement.pair
-        if pair is None or waiting(both, state) or pair[0] != both.request(state):
+        verdict, made = both.verdict(state), self._made
+        if verdict is None or waiting(both, state):
             return None
-        _, raster, ray = pair
-        self._work.ask(_made, raster, ray, state.images.channel, state.options.compare.gain)
-        return self._made[1] if self._made is not None and self._made[0] is ray else None
+        comparison = verdict.comparison
+        self._work.ask(_made, comparison, state.images.channel, state.options.compare.gain)
+        return made[1] if made is not None and made[0] is comparison else None
 
     def _placed(self, name: str, picture: Bytes, placement: Placement) -> moderngl.Texture:
         """Return the visible part of a picture of the images' size."""
@@ -234,8 +234,8 @@ def waiting(both: Renderers, state: AppState) -> str:
     return ""
 
 
-def _made(raster: Frame, ray: Frame, channel: Channel, gain: float) -> tuple[Frame, Bytes]:
-    return ray, difference_picture(raster, ray, channel, gain)
+def _made(comparison: Comparison, channel: Channel, gain: float) -> tuple[Comparison, Bytes]:
+    return comparison, comparison.false_color(channel, gain)
 
 
 def _label(host: Host, screen: Screen, text: str, right: bool, end: float) -> None:

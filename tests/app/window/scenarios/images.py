@@ -92,7 +92,7 @@ def drive_channels_follow_a_drag(d):
     assert while_moving <= 1, "read back while dragging"
     assert reads() > while_moving
     near, far = both.depths() or (0, 0)
-    frame = both.agreement.pair[1]
+    frame = both.agreement.verdict.comparison.raster
     hits = frame.depth[np.isfinite(frame.depth)]
     assert abs(near - hits.min()) < 1e-4
     assert abs(far - hits.max()) < 1e-3

@@ -66,8 +66,7 @@ def drive_the_mouse_turns_moves_and_zooms(d):
 def drive_the_object_under_the_mouse_is_framed(d):
     d.settle()
     window = d.window
-    _, _, frame = window.renderers.agreement.pair
-    numbers = frame.channel("id")
+    numbers = window.renderers.agreement.verdict.comparison.ray.channel("id")
     shiny = 2
     rows, columns = np.nonzero(numbers == shiny)
     k = len(rows) // 2
