@@ -6,7 +6,6 @@ import argparse
 import json
 import math
 
-from lucida.app.cameras.films.frames import stored
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import add_view_option
@@ -71,6 +70,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from lucida.app.cameras.films.frames import stored
     from lucida.renderer.compare.raster_and_ray import compare
     from lucida.renderer.images import PICTURES, check_image_path, write_picture
     from lucida.renderer.system.errors import LucidaError

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import argparse
+from contextlib import closing
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from lucida.app.cameras.films.frames import stored, with_z
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import add_view_option
-from lucida.app.commands.many import add_workers_options
+from lucida.app.commands.many import add_workers_options, look_of
 from lucida.renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
@@ -96,6 +97,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from lucida.app.cameras.films.frames import stored, with_z
     from lucida.renderer.compare.why_black import hits_nothing
     from lucida.renderer.images import check_image_path, write_image
 
@@ -143,23 +145,18 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
 
     The frame has the requested channel, and id, which shows whether anything is hit.
     """
-    size, samples = arguments.size, arguments.samples
+    from lucida.app.cameras.films.frames import Drawing, Shot, stored
+
     channels = tuple(dict.fromkeys((stored(arguments.channel), "id")))
     with common.progress_bar(arguments.renderer) as progress:
         if arguments.renderer == "raster":
-            from lucida.renderer.raster import Rasterizer
             from lucida.renderer.scene import flatten
             from lucida.renderer.scene.precision import check_precision
 
-            check_precision(camera, size, lambda: flatten(scene))
-            with Rasterizer(scene, backend=arguments.backend) as rasterizer:
-                given = camera, size, channels, samples, progress, arguments.enlargement
-                return rasterizer.render(*given)
-        from lucida.renderer.trace import Tracer
-
-        effects = {"shadows": arguments.shadows, "mirror_depth": arguments.mirrors}
-        with Tracer(scene, threads=arguments.threads, **effects) as tracer:
-            return tracer.render(camera, size, channels, samples, progress)
+            check_precision(camera, arguments.size, lambda: flatten(scene))
+        look = replace(look_of(arguments), enlargement=arguments.enlargement)
+        with closing(Drawing(scene, look)) as drawing:
+            return drawing.frame(Shot(camera, arguments.size), channels, progress)
 
 
 def check_effects(arguments: argparse.Namespace) -> None:

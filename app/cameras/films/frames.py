@@ -5,6 +5,7 @@ Workers on other machines call draw_shot() with the scene that they have been se
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -69,21 +70,27 @@ class Drawing:
 
     def encoded(self, shot: Shot) -> bytes:
         """Return the bytes of the picture's file."""
-        look, frame = self.look, self._frame(shot)
+        look, frame = self.look, self.frame(shot, (stored(self.look.channel),))
         if look.channel == "z":
             camera = shot.camera.cropped(shot.rows, shot.size) if shot.rows else shot.camera
             frame = with_z(frame, camera)
         return encode_image(look.ending, frame, stored(look.channel), look.exposure)
 
-    def _frame(self, shot: Shot) -> Frame:
-        look, camera, size = self.look, shot.camera, shot.size
-        channels = (stored(look.channel),)
+    def frame(
+        self,
+        shot: Shot,
+        channels: tuple[str, ...],
+        progress: Callable[[float], None] | None = None,
+    ) -> Frame:
+        """Draw channels of a picture. progress is called with fractions 0 to 1."""
+        look, camera, size, samples = self.look, shot.camera, shot.size, self.look.samples
         if look.renderer == "ray":
-            return self._tracer.render(camera, size, channels, look.samples, None, shot.rows)
+            return self._tracer.render(camera, size, channels, samples, progress, shot.rows)
         if shot.rows is not None:
             camera = camera.cropped(shot.rows, size)
             size = size[0], shot.rows[1] - shot.rows[0]
-        return self._rasterizer.render(camera, size, channels, look.samples, None, look.enlargement)
+        given = camera, size, channels, samples, progress, look.enlargement
+        return self._rasterizer.render(*given)
 
 
 def stored(channel: str) -> str:
