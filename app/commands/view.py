@@ -27,6 +27,7 @@ commands:
   lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
   lucida camera FILE             describe a camera of any format, or convert it
   lucida export SCENE -o OUT     scene and camera as glTF, for other programs
+  lucida figure SCENE -o OUT     a figure: outside view, images or a pixel's formulas
   lucida page SCENE -o OUT.html  the scene, live, as one HTML page for any browser
   lucida check FILE.py           a student's code, next to the correct answers
   lucida tasks                   the tasks for such code

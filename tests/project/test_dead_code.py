@@ -7,7 +7,6 @@ a name counts only for its own module and for those that import it from there.
 import ast
 import functools
 import re
-import tomllib
 
 from test_layers import MODULES, ROOT
 
@@ -97,12 +96,3 @@ def test_what_a_module_defines_is_used():
         if (module, name) not in used() and name not in FOUND
     }
     assert not unused, "only tests use these, or nobody"
-
-
-def test_vultures_exceptions_are_needed():
-    settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["vulture"]
-    texts = (path.read_text("utf-8") for path in MODULES.values())
-    words = set().union(*(re.findall(r"\w+", text) for text in texts))
-    for name in settings["ignore_names"]:
-        start = name.replace("*", "")
-        assert any(word.startswith(start) for word in words), f"{name}: nothing has that name"

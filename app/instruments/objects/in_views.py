@@ -145,14 +145,14 @@ def lights_in(state: AppState, shown: ShownIn) -> dict[Item, ImVec2]:
     return found
 
 
-def _outlines(scene: Scene, items: tuple[Item, ...], camera: Camera) -> list[Outline]:
+def _outlines(scene: Scene, items: tuple[Item, ...], camera: Camera) -> tuple[Outline, ...]:
     """Return the outlines of the items' objects that are not hidden."""
     entries = [scene.objects[number] for item in items for number in ids_of(scene, item)]
-    return outlines_of([entry for entry in entries if not entry.hidden], camera)
+    return tuple(outlines_of([entry for entry in entries if not entry.hidden], camera))
 
 
 def _segments(
-    outlines: list[Outline],
+    outlines: tuple[Outline, ...],
     camera: Camera,
     origin: tuple[float, ...],
     extent: tuple[float, ...],

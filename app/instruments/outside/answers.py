@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.app.instruments.outside.diagram import Dot, Item, Label, Role, Segments, named_arrow
+from lucida.app.instruments.outside.diagram import Dot, Item, Label, Role, line, named_arrow
 from lucida.app.instruments.outside.second_camera import ROLE, GivenRay, second_ray
 from lucida.renderer.camera.checks import LARGEST, Floats
 
@@ -46,9 +46,8 @@ def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item
     ]
     for text, role, end in both:
         if is_drawable(end):
-            line = np.array([[start, end]])
             items += [
-                Segments(text, role, line, 2.0, dashed=role == ROLE, layer=4),
+                line(text, role, start, end, 2.0, dashed=role == ROLE, layer=4),
                 Dot(text, role, end, 6.0, layer=5),
                 Label(text, role, text, end, start if (end != start).any() else None, strong=True),
             ]
@@ -61,9 +60,9 @@ def ray(given: GivenRay, correct: GivenRay, reach: float) -> list[Item]:
     reach: the length of the drawn rays, world units.
     """
     length = float(np.linalg.norm(correct.direction))
-    way = np.array([[correct.origin, correct.origin + reach / length * correct.direction]])
+    end = correct.origin + reach / length * correct.direction
     items: list[Item] = [
-        Segments("correct ray", "ray", way, 2.6, hidden=0.6, layer=3),
+        line("correct ray", "ray", correct.origin, end, 2.6, hidden=0.6, layer=3),
         *_arrow("correct d", "ray", "vec(d)", correct.origin, correct.origin + correct.direction),
     ]
     if not is_drawable(given.origin, given.direction):

@@ -16,6 +16,7 @@ from lucida.app.instruments.outside.diagram import (
     RayEnd,
     Role,
     Segments,
+    line,
     named_arrow,
     polyline,
     shares,
@@ -158,8 +159,8 @@ def _volume(camera: Camera, end: float) -> list[Item]:
     else:
         items.append(Segments("end", "volume", polyline(back, True), 1.0, 0.6, 0.25, dashed=True))
     if camera.lens is None and not camera.is_parallel and near < 1:
-        axis = np.array([[camera.eye, plane_corners(camera).mean(axis=0)]])
-        items.append(Segments("distance", "plane", axis, 1.0, 0.55, 0.25, dashed=True))
+        middle, pale = plane_corners(camera).mean(axis=0), {"opacity": 0.55, "hidden": 0.25}
+        items.append(line("distance", "plane", camera.eye, middle, 1.0, dashed=True, **pale))
     return items
 
 
@@ -203,9 +204,8 @@ def _basis(camera: Camera, options: OutsideOptions, arrow: float) -> list[Item]:
 
 def _target(eye: Floats, target: Floats, up: Floats) -> list[Item]:
     """Return the target, and up if it has a length."""
-    line = np.array([[eye, target]])
     return [
-        Segments("to target", "extra", line, 1.6, dashed=True, layer=2),
+        line("to target", "extra", eye, target, 1.6, dashed=True, layer=2),
         Dot("target", "extra", target, 6.0),
         Label("target", "extra", "target", target, away=target - WORLD_UP, strong=True),
         *(named_arrow("up", "extra", "up", eye, eye + up) if up.any() else ()),
@@ -254,14 +254,14 @@ def _marked(content: Content, hit: RayEnd) -> list[Item]:
         return items
     center = image_point(camera, *camera.image_point(*hit.pixel, size))
     items += [
-        Segments("ray", "ray", np.array([[origin, reached]]), 2.6, hidden=0.6, layer=3),
+        line("ray", "ray", origin, reached, 2.6, hidden=0.6, layer=3),
         *pixel_square(camera, size, hit.pixel, 0.0 if content.options.image else 0.5),
         Dot("pixel", "mark", center, 3.0, on_plane=True, layer=4),
     ]
     if hit.is_hit:
-        beyond = np.array([[reached, far]])
+        pale = {"opacity": 0.5, "hidden": 0.3}
         items += [
-            Segments("beyond", "ray", beyond, 1.4, 0.5, 0.3, dashed=True, layer=2),
+            line("beyond", "ray", reached, far, 1.4, dashed=True, layer=2, **pale),
             Dot("hit", "mark", reached, 6.0),
         ]
         if content.names_t:

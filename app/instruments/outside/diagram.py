@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.checks import Floats
@@ -166,6 +167,13 @@ def term(
     middle, line = (start + end) / 2, np.array([start, end])
     label = Label(name, role, text, middle, middle - aside, strong=True, line=line, lit=lit)
     return [Arrow(name, role, start, end, 4.2, layer=4), label]
+
+
+def line(
+    name: str, role: Role, start: ArrayLike, end: ArrayLike, width: float = 1.5, **look: Any
+) -> Segments:
+    """Return one segment between two points, (3,) each. look: further fields."""
+    return Segments(name, role, np.array([[start, end]]), width, **look)
 
 
 def polyline(points: Floats, closed: bool = False) -> Floats:

@@ -24,6 +24,7 @@ from lucida.app.instruments.outside.diagram import (
     Label,
     Role,
     Segments,
+    line,
     term,
 )
 from lucida.app.instruments.outside.frustum import image_point, on_ray
@@ -130,7 +131,7 @@ def grown_diagram(content: Content) -> list[Item]:
         if share["ray"]:
             t = [0.0, share["ray"] * marked.t_or(content.end)]
             ends = on_ray(camera, marked.pixel, size, t)
-            items.append(_ray(ends))
+            items.append(_ray(*ends))
             if marked.is_hit and share["ray"] == 1:
                 items.append(Dot("hit", "mark", ends[1], 6.0))
     items += _drawn(terms(camera, x, y, share), camera, x, y, lit)
@@ -177,8 +178,8 @@ def _pixel(
     return items
 
 
-def _ray(ends: Floats) -> Segments:
-    return Segments("ray", "ray", ends[None], 2.6, hidden=0.6, layer=3)
+def _ray(start: Floats, end: Floats) -> Segments:
+    return line("ray", "ray", start, end, 2.6, hidden=0.6, layer=3)
 
 
 def _with_numbers(items: Iterable[Item], content: Content, pixel: Pixel) -> list[Item]:
@@ -226,13 +227,13 @@ def _turning(content: Content, pixel: Pixel, share: float) -> list[Item]:
 
     for hit in content.hits:
         origin, way = ray(hit.pixel)
-        line = np.array([[origin, origin + content.end * way]])
-        items.append(Segments(f"bundle {hit.pixel}", "ray", line, 1.4, 0.55, 0.25, layer=2))
+        end, pale = origin + content.end * way, {"opacity": 0.55, "hidden": 0.25}
+        items.append(line(f"bundle {hit.pixel}", "ray", origin, end, 1.4, layer=2, **pale))
     x, y = (float(one) for one in camera.image_point(*pixel, size))
     origin, way = ray(pixel)
     items += [
         *pixel_square(moved, size, pixel, 0.5),
-        _ray(np.array([origin, origin + content.end * way])),
+        _ray(origin, origin + content.end * way),
         Dot("p", "ray", origin, 6.0, layer=5),
         Label("p", "ray", "vec(p)", origin, away=origin - v, strong=True),
     ]

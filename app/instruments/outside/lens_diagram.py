@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.instruments.outside.diagram import Dot, Item, Label, Segments, polyline
+from lucida.app.instruments.outside.diagram import Dot, Item, Label, Segments, line, polyline
 from lucida.app.instruments.outside.frustum import (
     border,
     grid,
@@ -59,9 +59,8 @@ def lens_pixel(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
         ]
     if not has_plane(camera):
         return []
-    way = np.array([[distorted, ideal]])
     return [
-        Segments("lens", "mark", way, 2.2, on_plane=True, layer=4),
+        line("lens", "mark", distorted, ideal, 2.2, on_plane=True, layer=4),
         Dot("ideal", "ray", ideal, 4.0, on_plane=True, layer=5),
         Label("distorted", "mark", "(a', b')", distorted, away=ideal, least=APART_PX),
         Label("ideal", "ray", "(a, b)", ideal, away=distorted, least=APART_PX),

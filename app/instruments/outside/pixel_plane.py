@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, Segments
+from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, line
 from lucida.app.instruments.outside.frustum import has_plane, image_point, on_plane, plane_corners
 from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.instruments.outside.screen import OutsideScreen
@@ -104,7 +104,7 @@ def pixel_items(camera: Camera, size: Size, origin: PixelOrigin) -> tuple[Item, 
     focal = f"f = {fx:.4g}" if same else f"f = ({fx:.4g}, {fy:.4g})"
     first, corners = at(0, 0), plane_corners(camera)
     items: list[Item] = [
-        Segments("axis", "w", np.array([[eye, point]]), 2.0, dashed=True, layer=2),
+        line("axis", "w", eye, point, 2.0, dashed=True, layer=2),
         Label("focal length", "w", focal, (eye + point) / 2),
         Dot("principal point", "extra", point, 7.0, layer=5),
         Label("principal point", "extra", f"c = ({cx:.4g}, {cy:.4g})", point),

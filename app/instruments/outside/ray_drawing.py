@@ -14,6 +14,7 @@ from lucida.app.instruments.outside.diagram import (
     Label,
     Role,
     Segments,
+    line,
     shares,
     term,
 )
@@ -87,13 +88,13 @@ def meetings(
         return []
     fades = 1 - (1 - PALE) * lit
     items: list[Item] = [
-        Segments("ray", "ray", np.array([[origin, reached]]), WIDTH, hidden=0.6, layer=3),
+        line("ray", "ray", origin, reached, WIDTH, hidden=0.6, layer=3),
         Segments("beyond", "ray", np.array([[reached, far]]), WIDTH * fades, fades, fades * 0.6,
                  dashed=lit > 0, layer=2),
     ]  # fmt: skip
     if first < 0:
-        line = np.array([[back, origin]])
-        items.append(Segments("t < 0", "ray", line, 1.6, PALE, PALE, dashed=True, layer=2))
+        pale = {"opacity": PALE, "hidden": PALE}
+        items.append(line("t < 0", "ray", back, origin, 1.6, dashed=True, layer=2, **pale))
     for order, t in enumerate(sorted(found)):
         shown = min(max(appeared * len(found) - order, 0.0), 1.0)
         if not shown:

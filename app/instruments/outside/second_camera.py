@@ -18,6 +18,7 @@ from lucida.app.instruments.outside.diagram import (
     RayEnd,
     Role,
     Segments,
+    line,
     polyline,
 )
 from lucida.renderer.camera.checks import Floats
@@ -85,8 +86,8 @@ def second_ray(ray: GivenRay, reach: float) -> list[Item]:
         return []
     end = RayEnd((0, 0), ray.t)
     reached = ray.origin + end.t_or(reach / length) * ray.direction
-    way = np.array([[ray.origin, reached]])
-    items: list[Item] = [Segments("second ray", ROLE, way, 3.2, hidden=0.6, dashed=True, layer=3)]
+    look = {"hidden": 0.6, "dashed": True, "layer": 3}
+    items: list[Item] = [line("second ray", ROLE, ray.origin, reached, 3.2, **look)]
     if end.is_hit:
         items.append(Dot("second hit", ROLE, reached, 6.0))
     return items

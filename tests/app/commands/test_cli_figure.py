@@ -48,7 +48,6 @@ def test_the_outside_view_has_its_size_its_ground_and_its_labels(tmp_path, groun
         (["-o", "a.png", "--what", "probe"], "add --mark"),
         (["-o", "a.png", "--mark", "999,0"], "outside of the image"),
         (["-o", "a.png", "--mark", "one"], "is not a pixel"),
-        (["-o", "a.png", "--scale", "90"], "is not a scale"),
     ],
 )
 def test_a_mistake_costs_one_line(tmp_path, monkeypatch, capsys, arguments, told):

@@ -62,22 +62,6 @@ def drive_buttons_go_through_both_runs(d):
     assert d.steps == steps  # steps are nothing to undo
 
 
-def drive_it_plays_and_stops_at_the_end(d):
-    enter(d, steps=(0, 0), canvas=(4, 3), speed=20000.0)
-    press(d, "play")
-    assert view(d).playing
-    d.until(lambda: not view(d).playing)
-    assert all(np.isfinite(moment.canvas).all() for moment in moments(d))
-    press(d, "play")  # from the beginning again
-    d.until(lambda: moments(d)[1].step > 0)
-    d.ctx.window_focus(WINDOW)
-    d.press(Key.space)
-    assert not view(d).playing
-    stopped = [moment.step for moment in moments(d)]
-    d.frames(10)
-    assert [moment.step for moment in moments(d)] == stopped
-
-
 def drive_the_outside_view_shows_the_ray_and_the_triangle(d):
     enter(d, steps=(0, 0), canvas=(16, 12))
     assert strokes(d, "ray") == strokes(d, "triangle") == 0
@@ -119,17 +103,3 @@ def drive_the_palette_and_the_keys_step(d):
     assert moments(d)[1].pixel == (0, 0)
     d.press(Key.end)
     assert all(np.isfinite(moment.canvas).all() for moment in moments(d))
-
-
-def drive_the_same_lines_in_julia_and_the_depth_buffer(d):
-    enter(d, steps=(0, 0), canvas=(16, 12))
-    d.click(f"{WINDOW}/Julia")
-    d.click(f"{WINDOW}/depth")
-    options = d.state.options
-    assert options.language == "julia" and options.stepper.depth
-    for _ in range(3):
-        press(d, "step")
-    assert moments(d)[1].step == 3
-    d.click(f"{WINDOW}/Julia")
-    d.click(f"{WINDOW}/depth")
-    assert d.options.language == "python"

@@ -61,7 +61,7 @@ def wrong_neither_size_nor_centre(camera, u, v):
 
 
 def wrong_one_not_centred(camera, u, v):
-    """perspective-camera: Of the row: The viewport begins at its edge"""
+    """perspective-camera: In the rows alone: The viewport begins at its edge"""
     basis_u, basis_v, basis_w = init_view(camera)
     x, y = camera.viewWidth * (u - 0.5), camera.viewHeight * v
     return camera.viewPoint, x * basis_u + y * basis_v - camera.projDistance * basis_w
