@@ -77,7 +77,7 @@ class FigureBox:
         imgui.set_next_item_width(10 * em)
         kinds = get_args(What)
         changed, number = imgui.combo(
-            "shows", kinds.index(one.what), [NAMES[kind] for kind in kinds]
+            "subject", kinds.index(one.what), [NAMES[kind] for kind in kinds]
         )
         if changed:
             one = replace(one, what=kinds[number])
@@ -133,7 +133,6 @@ class FigureBox:
         host, choice = self._host, self.choice
         endings = (*ENDINGS, ".tex") if choice.what == "probe" else ENDINGS
         name = f"{file_stem(host.state.scene.name) or 'scene'}-{choice.what}{endings[0]}"
-
         try:
             content = encoder(host, choice)
         except (LucidaError, moderngl.Error) as error:
