@@ -90,7 +90,8 @@ class RayTrial:
         """Return how far the given rays, and the correct ones, are from the program's, relative to
         the largest intermediate result.
 
-        The error is 0 if neither is finite: both divide by zero in the same place.
+        The error is 0 if neither is finite: both divide by zero in the same place. So does a
+        student who normalises a direction of length 0.
         """
         origins, directions = run_rays(program, self._known, mistakes)
         with np.errstate(all="ignore"):
@@ -103,7 +104,7 @@ class RayTrial:
             error = np.linalg.norm(turned, axis=-1) * length
             error = np.where((own == 0) | (length == 0), np.maximum(own, length), error)
             error = np.maximum(np.linalg.norm(moved, axis=-1), error) / scale
-        is_made = np.isfinite(origins).all(axis=-1) & np.isfinite(directions).all(axis=-1)
+        is_made = np.isfinite(origins).all(axis=-1) & np.isfinite(length) & (length > 0)
         is_there = np.isfinite(self._answers).all(axis=(-2, -1)) | is_made
         error = np.where(is_there, np.where(np.isnan(error), np.inf, error), 0.0)
         given, right = error.max(axis=1).tolist()

@@ -164,10 +164,8 @@ def test_the_probe_shows_the_way_through_a_lens(page, tab, lens):
     tab.evaluate("lens => lucida.set({lens})", {"model": lens.model, **lens.coefficients})
     named = "[...document.querySelectorAll('.lucida-lines dt')].map(dt => dt.textContent)"
     page.until(f"{named}.includes('direction in the camera, forwards')")
-    names = tab.evaluate(named)
-    lines = tab.evaluate(
-        "[...document.querySelectorAll('.lucida-lines dd')].map(dd => dd.innerHTML)"
-    )
+    lines = "[...document.querySelectorAll('.lucida-lines dd')].map(dd => dd.innerHTML)"
+    names, lines = tab.evaluate(f"[{named}, {lines}]")  # at once: the page may draw in between
     shown = dict(zip(names, lines, strict=True))
 
     def last(name):

@@ -7,6 +7,8 @@ import sys
 import pytest
 from desk import Program, check_same
 
+from lucida.app.window.hints import SEEN
+
 pytestmark = [
     pytest.mark.timeout(1500),
     pytest.mark.skipif(not sys.platform.startswith("linux"), reason="made for X11 on Linux"),
@@ -62,6 +64,9 @@ def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk, tmp_path):
     with Program(desk, lectured, "--fresh") as program:
         fresh = desk.still()
         program.quit()
+    settings = other / "CONFIG" / "lucida"
+    settings.mkdir(parents=True)
+    (settings / SEEN).touch()  # the first start's hints are gone since the lecture was begun
     with Program(desk, other) as program:
         check_same(fresh, desk.still(), tmp_path)
         desk.key("ctrl+shift+p")

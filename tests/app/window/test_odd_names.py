@@ -10,7 +10,6 @@ from types import SimpleNamespace
 import msgspec
 import pytest
 
-from lucida.app.cameras.text import command_line
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import is_unicode, restored, stored
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
@@ -103,17 +102,6 @@ def test_notifications_are_text():
     toasts = Toasts()
     toasts.add("Saved /tmp/\udcff.png.")
     assert toasts.texts == [r"Saved /tmp/\xff.png."]
-
-
-def test_the_command_line_to_copy_names_it(model):
-    line = command_line(load_scene("canonical").view, model)
-    assert is_unicode(line)
-    words = subprocess.run(
-        ["bash", "-c", f"printf '%s\\0' {line.splitlines()[0].removesuffix(chr(92))}"],
-        capture_output=True,
-        check=True,
-    ).stdout.split(b"\0")
-    assert os.fsencode(model) in words
 
 
 @pytest.mark.parametrize("encoding", ["utf-8", "ascii", "latin-1"])

@@ -73,7 +73,7 @@ PAGES = pages(None)  # which only running them needs
         ("fov", "Go to Camera"),
         ("ortho", "Parallel projection"),
         ("grid", "Pixel grid and values"),
-        ("diagram", "Export figure as SVG..."),
+        ("diagram", "Export figure..."),
         ("screenshot", "Save a picture of the window"),
         ("zoom", "Magnify"),
         ("gamma", "Linear light (no sRGB curve)"),

@@ -217,9 +217,9 @@ def look(target):
         return
     picture = target.read()
     assert picture.shape[1::-1] == sizes[0], picture.shape
-    textures = run.window.renderers.textures
-    for name, shown in (("Raster", textures._shown_raster), ("Ray", textures._shown_ray)):
-        texture = shown._pictures["pane"].texture
+    pictures = run.window.renderers.textures._pictures._pictures
+    for name, shown in (("Raster", "pane"), ("Ray", "pane ray")):
+        texture = pictures[shown].texture
         width, height = texture.size
         left, _, _, bottom = (round(edge) for edge in run.window.shell.stage.rects[name])
         rows = np.frombuffer(texture.read(), np.uint8)
