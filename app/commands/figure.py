@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from typing import get_args
 
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
@@ -32,24 +33,30 @@ exit status: 0 written, 2 a mistake; then nothing is written"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
+    from lucida.app.state.bounds import range_of
+    from lucida.app.window.figure_choice import FigureChoice, Ground, What
+
     parser.description, parser.epilog = DESCRIPTION, EPILOG
+    least, most = range_of(FigureChoice, "scale")
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
     parser.add_argument("-o", "--output", metavar="OUT", required=True, help="the file to write")
     parser.add_argument(
         "--what",
-        choices=("outside", "raster", "ray", "pair", "probe"),
+        choices=get_args(What),
         default="outside",
         help="the outside view, an image, both, or a pixel's formulas (default: outside)",
     )
     parser.add_argument(
         "--ground",
-        choices=("white", "transparent", "shown"),
+        choices=get_args(Ground),
         default="white",
         help="behind it all; shown: as in the window (default: white)",
     )
     parser.add_argument(
         "--scale",
-        type=common.real(lambda scale: 0.25 <= scale <= 8, "is not a scale; give 0.25 to 8"),
+        type=common.real(
+            lambda scale: least <= scale <= most, f"is not a scale; give {least:g} to {most:g}"
+        ),
         default=1.0,
         help="of lines and letters (default: 1)",
     )
@@ -69,20 +76,20 @@ def _pixel(text: str) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    from lucida.app.window.figure_choice import FigureChoice, check_ending
     from lucida.renderer.camera.image_plane import has_pixel
     from lucida.renderer.system.atomic import atomic_write, check_writable
 
     check_writable(arguments.output)
+    ending = check_ending(arguments.output)
     scene, view = common.scene_and_view(arguments)
     if arguments.mark is not None and not has_pixel(arguments.size, arguments.mark):
         raise LucidaError("argument --mark", "is outside of the image", "change it, or --size")
     if arguments.what == "probe" and arguments.mark is None:
         raise LucidaError("--what probe", "shows no pixel", "add --mark ROW,COLUMN")
-    from lucida.app.window.figures import FigureChoice, check_ending  # loads the window
-    from lucida.app.window.launch import draw_figure
-
     choice = FigureChoice(arguments.what, arguments.size, arguments.scale, arguments.ground)
-    ending = check_ending(arguments.output)
+    from lucida.app.window.launch import draw_figure  # loads the window
+
     written = draw_figure(scene, view, choice, ending, arguments.mark)
     with atomic_write(arguments.output) as file:
         file.write(written)

@@ -15,15 +15,8 @@ from lucida.app.state.bounds import range_of
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
 from lucida.app.ui.uploads import Uploads
-from lucida.app.window.figures import (
-    ENDINGS,
-    FigureChoice,
-    Ground,
-    What,
-    check_ending,
-    encoder,
-    figure_of,
-)
+from lucida.app.window.figure_choice import ENDINGS, FigureChoice, Ground, What, check_ending
+from lucida.app.window.figures import encoder, figure_of
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.atomic import atomic_write, file_stem
 from lucida.renderer.system.errors import LucidaError, describe
@@ -107,10 +100,8 @@ class FigureBox:
         em = imgui.get_font_size()
         share = PREVIEW_EM * em / max(self.choice.size)
         width, height = (max(1, round(share * side)) for side in self.choice.size)
-        host, small = (
-            self._host,
-            replace(self.choice, size=(width, height), scale=share * self.choice.scale),
-        )
+        host, scale = self._host, share * self.choice.scale
+        small = replace(self.choice, size=(width, height), scale=scale)
         self._uploads.begin_frame()
         key = small, host.state, theme.used(), host.renderers.busy
         if not same(key, self._shown):

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import partial
-from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
 from imgui_bundle import ImVec4, imgui_microtex
@@ -29,35 +27,19 @@ from lucida.app.instruments.outside.svg import svg
 from lucida.app.instruments.probe.copying import all_lines, as_latex
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.instruments.probe.view import ProbeView
-from lucida.app.state.bounds import Range
 from lucida.app.ui import formula, theme
 from lucida.app.ui.explaining.plain import plain_math
 from lucida.app.ui.host import Host
 from lucida.app.web import pdf
+from lucida.app.window.figure_choice import ENDINGS, FigureChoice, What
 from lucida.renderer.camera.checks import Floats
-from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import picture
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.system.errors import LucidaError
 
-What = Literal["outside", "raster", "ray", "pair", "probe"]
-Ground = Literal["shown", "white", "transparent"]
-ENDINGS = (".svg", ".pdf", ".png")
 GAP = 0.02  # between the pair, in parts of the width
 FORMULA_PX = 24.0  # of the probe's formulas
 FORMULA_GAP, ROW_GAP = 0.3, 0.4  # from one to the next, in parts of their size
-
-
-@dataclass(frozen=True)
-class FigureChoice:
-    """A figure. size: of the page, in pixels. scale: of lines and letters. ground: of the page, as
-    the window shows it or not.
-    """
-
-    what: What = "outside"
-    size: Size = (1280, 960)
-    scale: Annotated[float, Range(0.25, 8)] = 1.0
-    ground: Ground = "white"
 
 
 def figure_of(host: Host, choice: FigureChoice) -> Figure:
@@ -168,13 +150,3 @@ def _set(rows: list[list[str]], size: float, page: Color) -> tuple[list[Part], F
             y += baseline + max(one.height - one.baseline_y for one in made)
         y, widest = y + ROW_GAP * size, max(widest, x)
     return parts, np.array([widest, y])
-
-
-def check_ending(path: str | Path) -> str:
-    """Return a file's ending. Raises LucidaError if no figure has it."""
-    ending = Path(path).suffix.lower()
-    if ending not in (*ENDINGS, ".tex"):
-        raise LucidaError(
-            "", "is not a figure's name", "end it in .svg, .pdf, .png or .tex", str(path)
-        )
-    return ending

@@ -17,7 +17,8 @@ from lucida.app.state.paths import stored
 from lucida.app.ui import layout
 from lucida.app.ui.surface import Target
 from lucida.app.window.capture import free_path
-from lucida.app.window.figures import FigureChoice, encoder
+from lucida.app.window.figure_choice import FigureChoice
+from lucida.app.window.figures import encoder
 from lucida.app.window.platform import Platform, start_platform
 from lucida.app.window.start import begin_scene, begin_session, kept
 from lucida.app.window.viewer import WindowRun

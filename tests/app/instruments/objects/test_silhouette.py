@@ -149,7 +149,7 @@ def test_on_the_screen_an_outline_has_nothing_of_its_object_on_one_side(height):
 
 
 def covered(pieces: np.ndarray, triangles: np.ndarray, aside: float) -> np.ndarray:
-    """Whether the point beside the middle of each piece (n, 2, 2) is in a triangle (m, 3, 2)."""
+    """Return True for pieces (n, 2, 2) next to whose middle is a triangle (m, 3, 2)."""
     way = pieces[:, 1] - pieces[:, 0]
     way /= np.linalg.norm(way, axis=1, keepdims=True)
     spots = pieces.mean(axis=1) + aside * np.stack([-way[:, 1], way[:, 0]], axis=1)
