@@ -45,8 +45,7 @@ class Arrangement:
 
     layout: its name. visible: the names of the shown views. sections: the unfolded parts of a
     view, by the view's name. maximised: the name of the view that covers all others, focused: of
-    the one that has the keyboard, or "". parts: the docks' shares of their room, by layout and
-    space.
+    the one that has the keyboard, or "".
     """
 
     layout: str = ""
@@ -54,7 +53,6 @@ class Arrangement:
     sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
     maximised: str = ""
     focused: str = ""
-    parts: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -159,5 +157,5 @@ def _session(data: bytes) -> Session:
 
 
 def _renamed(found: Arrangement) -> Arrangement:
-    """Return an arrangement without removed layouts; their docks' shares are ignored."""
+    """Return an arrangement without removed layouts."""
     return replace(found, layout=NEAREST.get(found.layout, found.layout))

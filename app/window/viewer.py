@@ -138,7 +138,6 @@ class WindowRun:
     def _take(self, start: Start) -> None:
         if start.session is not None:
             self.window.shell.stage.restore(start.session.arrangement)
-            self.window.shell.proportion.restore(start.session.arrangement.parts)
         if start.lecture is not None:
             self.window.lecture.resume(start.lecture)
         elif start.session is not None and start.session.lecture is not None:
