@@ -242,7 +242,7 @@ class Shell:
         if self._keeper is not None:
             session = self._session(window)
             if session is not None and not keeps_edits:
-                session = replace(session, edited=None)
+                session = replace(session, unsaved="")
             self._keeper.close(session)
 
     def _session(self, window: Host) -> Session | None:
