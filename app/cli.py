@@ -24,6 +24,7 @@ INTERRUPTED = 128 + signal.SIGINT
 # Commands and options that left, and what to use instead.
 LEFT = {
     "install-desktop": "start lucida in a terminal",
+    "--show": "`lucida compare` marks the causes; the window's view Compare shows the difference",
     "--undistort": "COLMAP's image_undistorter undistorts the photographs of a data set",
 }
 BROKEN_PIPE = 128 + 13  # SIGPIPE, which Windows does not have

@@ -16,7 +16,6 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import CameraSet, PosedCamera, format_named
-from lucida.renderer.files.cameras.distortion import effect, shift_px
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import one_line
 
@@ -45,17 +44,15 @@ def as_text(told: Sequence[Fact]) -> str:
 
 
 def lens_text(cameras: Sequence[PosedCamera], ignored: bool = False) -> str:
-    """Return the first lens, and its effect; "" if there is none.
+    """Return the first lens, and how many there are; "" if there is none.
 
     ignored: among those that were left out when reading, instead of those that the cameras have.
     """
-    lenses = [(one, one.ignored if ignored else one.camera.lens) for one in cameras]
-    found = [(one, lens) for one, lens in lenses if lens is not None]
+    lenses = [one.ignored if ignored else one.camera.lens for one in cameras]
+    found = [lens for lens in lenses if lens is not None]
     if not found:
         return ""
-    posed, lens = found[0]
-    told = f"{lens}{' ignored' if ignored else ''}: it moves "
-    told += effect(posed.camera, lens, posed.size)
+    told = f"{found[0]}{' ignored' * ignored}"
     return told if len(found) == 1 else f"{told}, the first of {len(found)}"
 
 
@@ -148,17 +145,13 @@ def _camera_data(posed: PosedCamera) -> dict[str, Any]:
         "fov_deg": None if camera.is_parallel else [camera.fov_x_deg, camera.fov_y_deg],
         "basis": basis_text(camera),
         **matrices,
-        "lens": _lens_data(posed, camera.lens),
-        "ignored": _lens_data(posed, posed.ignored),
+        "lens": _lens_data(camera.lens),
+        "ignored": _lens_data(posed.ignored),
     }
 
 
-def _lens_data(posed: PosedCamera, lens: Lens | None) -> dict[str, Any] | None:
-    if lens is None:
-        return None
-    sizes = [None, None] if posed.size is None else shift_px(posed.camera, lens, posed.size)
-    moved = dict(zip(("median_px", "largest_px"), sizes, strict=True))
-    return {"model": lens.model, **moved, **lens.coefficients}
+def _lens_data(lens: Lens | None) -> dict[str, Any] | None:
+    return None if lens is None else {"model": lens.model, **lens.coefficients}
 
 
 def _size_text(size: Size | None) -> str:

@@ -75,17 +75,6 @@ def source_of(file: str) -> Given:
     return Given(name, data)
 
 
-def with_remedy(error: LucidaError, remedy: str) -> LucidaError:
-    """Return an error about a basis that is not orthonormal with this remedy in place of the
-    window's; any other error unchanged.
-    """
-    from lucida.renderer.files.cameras.rigid import REMEDY
-
-    if error.remedy != REMEDY:
-        return error
-    return LucidaError(error.field, error.problem, remedy, error.source)
-
-
 def say_changes(cameras: Sequence[PosedCamera], size: Size | None = None) -> None:
     """Report changes on standard error, a line for each: an ignored lens with its effect, and an
     image whose aspect ratio is not the camera's own. size: of that image.

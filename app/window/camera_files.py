@@ -1,21 +1,16 @@
-"""The camera as it is shown into a file of any format: the actions of the menu File, Save camera
-as.
-
-Owns their names. A format is an action, since several have the same ending. The formats are
-renderer/files/cameras/'s.
-"""
+"""The actions of the menu File, Save camera as: one for each format that is written."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 
 from lucida.app.cameras.camera_panel.actions import image_size
 from lucida.app.cameras.text import CALLED
 from lucida.app.ui.action import Action
 from lucida.app.ui.host import Host
-from lucida.renderer.files.cameras import FORMATS, Options, PosedCamera, save_files, written
+from lucida.renderer.files.cameras import FORMATS, Options, PosedCamera, written
 from lucida.renderer.files.cameras.formats import Format
+from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError, one_line
 
 MENU = "File/Save camera as"
@@ -26,7 +21,7 @@ def _action(entry: Format) -> Action:
 
 
 def _kinds(entry: Format) -> str:
-    return ", ".join(entry.endings) if entry.endings[0] else "a folder"
+    return ", ".join(entry.endings)
 
 
 def _saving(entry: Format) -> Callable[[Host], None]:
@@ -45,7 +40,9 @@ def _save_dialog(window: Host, entry: Format) -> None:
 
     def store(path: str) -> str:
         options = Options(is_binary=path.lower().endswith(".glb"))
-        save_files(Path(path), written([posed], entry.name, options))
+        data = written([posed], entry.name, options)
+        with atomic_write(path) as file:
+            file.write(data)
         return one_line(f"Saved the camera as {path} ({CALLED[entry.name]}).")
 
     name = f"camera{entry.endings[0]}"
@@ -54,4 +51,4 @@ def _save_dialog(window: Host, entry: Format) -> None:
 
 
 # A view file is the action "Save view...", which keeps whether it is fitted.
-CAMERA_FILES = tuple(_action(entry) for entry in FORMATS if entry.name != "view")
+CAMERA_FILES = tuple(_action(one) for one in FORMATS if one.endings and one.name != "view")

@@ -31,9 +31,9 @@ from lucida.renderer.images.difference import (
     CAUSE_COLORS,
     SHADING_COLOR,
     UNEXPLAINED_COLOR,
+    difference,
     false_color,
     most,
-    signed_difference,
 )
 from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.images.frame import CHANNELS, Frame
@@ -180,14 +180,11 @@ class Comparison:
         image[marked] = LABEL_COLORS[self.labels[marked]]
         return image
 
-    def false_color(
-        self, channel: str = "color", gain: float = 1.0, signed: bool = False
-    ) -> NDArray[np.uint8]:
+    def false_color(self, channel: str = "color", gain: float = 1.0) -> NDArray[np.uint8]:
         """Return the difference of a channel as colours, uint8 (height, width, 3); see
         difference.py.
         """
-        difference = signed_difference(self.raster, self.ray, channel)
-        return false_color(difference, channel, gain, signed)
+        return false_color(difference(self.raster, self.ray, channel), channel, gain)
 
 
 _REPORTED = (
@@ -276,7 +273,7 @@ def compare_frames(
             "color": _channel_error(color, COLOR),
             "depth": _channel_error(depth, DEPTH_RELATIVE),
             "normal": _channel_error(normal, NORMAL),
-            "id": _channel_error(signed_difference(raster, ray, "id"), 0.0),
+            "id": _channel_error(difference(raster, ray, "id"), 0.0),
         },
         times_s={"raster": raster.time_s, "ray": ray.time_s},
         labels=labels,
@@ -291,30 +288,29 @@ def _differences(
     raster: Frame, ray: Frame
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
     """Return absolute differences of depth, normal and colour, float32 (height, width)."""
-    depth = np.abs(signed_difference(raster, ray, "depth"))
-    normal = np.abs(signed_difference(raster, ray, "normal"))
+    depth, normal = (difference(raster, ray, channel) for channel in ("depth", "normal"))
     color_a, color_b = raster.channel("color"), ray.channel("color")
     with np.errstate(invalid="ignore"):
-        color = np.abs(most(color_b - color_a)) * np.float32(SRGB_SLOPE)
+        color = most(color_b - color_a) * np.float32(SRGB_SLOPE)
     # The display transform is costly and shrinks most differences: use it only where needed.
     near = color > _NEGLIGIBLE
-    color[near] = np.abs(most(encode_srgb(color_b[near]) - encode_srgb(color_a[near])))
+    color[near] = most(encode_srgb(color_b[near]) - encode_srgb(color_a[near]))
     return depth, normal, color
 
 
-def _channel_error(difference: NDArray[np.float32], tolerance: float) -> ChannelError:
-    """Return the errors of a channel. difference: absolute, (height, width)."""
-    finite = np.isfinite(difference)
-    infinite = difference.size - int(np.count_nonzero(finite))
-    values = difference if not infinite else difference[finite]
+def _channel_error(differences: NDArray[np.float32], tolerance: float) -> ChannelError:
+    """Return the errors of a channel. differences: (height, width)."""
+    finite = np.isfinite(differences)
+    infinite = differences.size - int(np.count_nonzero(finite))
+    values = differences if not infinite else differences[finite]
     squares = float(np.square(values, dtype=np.float64).mean()) if values.size else 0.0
     # argmax treats NaN as the largest.
-    row, column = np.unravel_index(int(np.argmax(difference)), difference.shape)
+    row, column = np.unravel_index(int(np.argmax(differences)), differences.shape)
     return ChannelError(
         largest=float(values.max(initial=0)),
         rms=math.sqrt(squares),
         infinite=infinite,
-        differing=int(np.count_nonzero(~(difference <= tolerance))),
+        differing=int(np.count_nonzero(~(differences <= tolerance))),
         worst=(int(row), int(column)),
     )
 

@@ -63,7 +63,7 @@ def _notes(tree: Gltf, shown: set[int]) -> Iterator[str]:
         yield f"cameras[{number}] is not used: no node of the scene holds it"
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     lenses, nodes = [], []
     for number, posed in enumerate(cameras):
         camera, size = sized(posed, options)
@@ -80,8 +80,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         "cameras": lenses,
     }
     if options.is_binary:
-        return {"": glb_bytes(tree)}
-    return {"": (json.dumps(tree, indent=1, ensure_ascii=False) + "\n").encode()}
+        return glb_bytes(tree)
+    return (json.dumps(tree, indent=1, ensure_ascii=False) + "\n").encode()
 
 
 def node_matrix(camera: Camera) -> list[float]:

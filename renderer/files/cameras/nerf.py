@@ -109,7 +109,7 @@ def _disagree(table: Table) -> bool:
     return not math.isclose(fx, table["fl_x"], rel_tol=0.01)
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     origin = options.pixel_origin or "corner"
     model, frames = _model_for(cameras), []
     for i, posed in enumerate(cameras):
@@ -123,7 +123,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     own = [{name: frame[name] for name in frame if name not in shared} for frame in frames]
     is_fisheye = {"is_fisheye": True} if model == "OPENCV_FISHEYE" else {}  # for instant-ngp
     table = {"camera_model": model, **is_fisheye, **shared, "frames": own}
-    return {"": (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()}
+    return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
 
 
 def _image(name: object, folder: Path | None) -> str:

@@ -104,7 +104,7 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
     return CameraSet("opencv", tuple(cameras), (*taken, *notes), notes=tuple(notes))
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     camera, size = in_image(one_of(cameras), options, "OpenCV")
     if camera.lens is not None:
         camera = rigid(camera, "OpenCV")
@@ -123,7 +123,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         "t": t[:, None],
         "rvec": to_vector(R)[:, None],
     }
-    return {"": to_yaml(table, notes).encode()}
+    return to_yaml(table, notes).encode()
 
 
 def _origin_told(given: Given) -> PixelOrigin:
@@ -196,13 +196,9 @@ def _poses(keys: Keys, previous: Floats) -> tuple[list[_Pose], str, list[str]]:
 
     previous: the pose of the camera before it.
     """
-    for role in ("from previous", "to previous"):
-        if found := keys.get(role):
-            change = affine(*found)
-            if role == "to previous":
-                change = as_camera_from_world(change)
-            told = f"{found[0]} places it at the camera before it"
-            return [(found[0], change @ previous)], told, []
+    if found := keys.get("from previous"):
+        told = f"{found[0]} places it at the camera before it"
+        return [(found[0], affine(*found) @ previous)], told, []
     poses = list(_single_poses(keys))
     names = [name for name, _, _ in poses]
     if found := keys.get("views"):
@@ -226,18 +222,14 @@ def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
     if found := keys.get("to world"):
         pose = as_camera_from_world(affine(*found))
         yield found[0], pose, f"{found[0]} takes the camera's points to the world"
-    turned, moved = keys.get("R to world"), keys.get("t to world")
-    if turned or moved:
-        name, pose, told = _parts(turned, moved, "take the camera's points to the world")
-        yield name, as_camera_from_world(pose), told
     turned, moved = keys.get("R") or keys.get("rvec"), keys.get("t")
     if found := keys.get("P"):
         yield found[0], _projected(*found)[1], f"K, R and t out of {found[0]}"
     if turned or moved:
-        yield _parts(turned, moved, "take world points to the camera")
+        yield _parts(turned, moved)
 
 
-def _parts(turned: _Entry, moved: _Entry, what: str) -> tuple[str, Floats, str]:
+def _parts(turned: _Entry, moved: _Entry) -> tuple[str, Floats, str]:
     """Return the name, the matrix and the origin in words of a rotation and a translation."""
     R = np.eye(3)
     if turned:
@@ -246,7 +238,7 @@ def _parts(turned: _Entry, moved: _Entry, what: str) -> tuple[str, Floats, str]:
     t = flat(*moved, 3) if moved else np.zeros(3)
     used = [entry[0] for entry in (turned, moved) if entry]
     lacking = "" if len(used) == 2 else f"; no {'rotation' if moved else 'translation'}"
-    return used[0], _rigid(R, t), f"{' and '.join(used)} {what}{lacking}"
+    return used[0], _rigid(R, t), f"{' and '.join(used)} take world points to the camera{lacking}"
 
 
 def _rigid(R: Floats, t: Floats) -> Floats:

@@ -37,13 +37,9 @@ _NAMES = {
     "rvec": "rvec rodrigues rotationvector",
     "t": "t tvec translation translationvector",
     "from world": "extrinsics extrinsic extrinsicmatrix rt camerafromworld worldtocamera world2cam "
-    "w2c tcamimu",
-    # The world may be a robot's or an IMU's frame.
-    "to world": "worldfromcamera cameratoworld cam2world c2w tbs tbc timucam bodytcam0 imutbc1",
-    "R to world": "extrinsicrotation",
-    "t to world": "extrinsictranslation",
-    "from previous": "tcncnm1",
-    "to previous": "stereotc1c2 tlr",  # in ORB-SLAM3, of the second camera
+    "w2c",
+    "to world": "worldfromcamera cameratoworld cam2world c2w",
+    "from previous": "tcncnm1",  # Kalibr's: from the camera before it
     "views": "extrinsicparameters",  # of a calibration's pictures: rvec and tvec, one row each
     "lens": "distortioncoefficients distortioncoefficient distortioncoeffs distortioncoeff "
     "distortioncoefs distortionparameters distortionparams distortionvector distcoeffs distcoeff "
@@ -69,7 +65,6 @@ _STEREO = re.compile(
     r"(?:(m|k|cameramatrix|intrinsicmatrix)|d|distcoeffs|distortioncoefficients)([12])"
 )
 _SIDES = {"1": "left", "2": "right"}
-_OF_FIRST = {"to world", "R to world", "t to world"}  # poses of the first of several cameras
 # Lens's model by the programs' names for it, in lower case, letters and digits only.
 _PINHOLES = """
 0 none plumbbob rationalpolynomial radtan radialtangential opencv pinhole rectified perspective
@@ -109,8 +104,6 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
         side = _STEREO.fullmatch(last)
         if side and np.size(value) > 1:
             owner, role = _SIDES[side[2]], "K" if side[1] else "lens"
-        elif role == "to previous":
-            owner = "Camera2"
         elif not owner or _CAMERA.fullmatch(owner) or are_cameras(tables[owner]):
             role = role or _ROLES.get(last)
         else:
@@ -125,8 +118,6 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
     shared = cameras.pop("")
     if "right" in cameras:
         cameras["right"] |= {role: shared.pop(role) for role in ("R", "t") if role in shared}
-    if cameras.get("Camera2", {}).keys() == {"to previous"}:
-        unused.append(cameras.pop("Camera2")["to previous"][0])
     for name in [name for name in cameras if name.lower() == "camera"]:
         if not _INTRINSIC & cameras[name].keys():  # it belongs to Camera1 and Camera2
             shared |= cameras.pop(name)
@@ -135,9 +126,6 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
         names, cameras[""] = ["", *names], shared  # a camera of its own
         shared = {role: shared[role] for role in _SIZES & shared.keys()}
     found = {name: shared | cameras[name] for name in names} or {"": shared}
-    for name in names[1:]:
-        for role in _OF_FIRST & shared.keys():
-            found[name].pop(role)
     return found, notes_on(unused)
 
 

@@ -28,6 +28,6 @@ def read(given: Given, options: Options) -> CameraSet:
     return CameraSet("view", (without_lens(posed) if options.ignore_distortion else posed,))
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     camera = one_of(cameras)
-    return {"": view_to_toml(View(camera.camera, camera.fit)).encode()}
+    return view_to_toml(View(camera.camera, camera.fit)).encode()

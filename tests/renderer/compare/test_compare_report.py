@@ -8,7 +8,7 @@ from flawed_images import CAMERA, SIZE, changed, image, wall
 
 from lucida.renderer.compare.raster_and_ray import CAUSES, LABEL_COLORS, compare_frames
 from lucida.renderer.images import encode_srgb
-from lucida.renderer.images.difference import CAUSE_COLORS, false_color, signed_difference
+from lucida.renderer.images.difference import CAUSE_COLORS, difference, false_color
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.model import Scene
 
@@ -50,8 +50,8 @@ def test_the_difference_image_is_the_raster_image_darkened():
     wanted = [int(0.35 * 255 * value) for value in encode_srgb(ramp)]
     assert picture.dtype == np.uint8 and tuple(picture[3, 4]) == (255, 94, 0)
     assert picture[0].tolist() == [[value] * 3 for value in wanted]
-    difference = signed_difference(frame, frame, "depth")
-    assert (comparison.false_color("depth", 4.0) == false_color(difference, "depth", 4.0)).all()
+    found = difference(frame, frame, "depth")
+    assert (comparison.false_color("depth", 4.0) == false_color(found, "depth", 4.0)).all()
     assert LABEL_COLORS.shape == (256, 3)
     for label, name in enumerate(CAUSES, start=1):
         assert tuple(LABEL_COLORS[label]) == CAUSE_COLORS[name]

@@ -173,14 +173,14 @@ CANONICAL = Camera.canonical()
 
 def test_a_parallel_camera_off_the_middle_is_the_same_from_another_eye():
     camera = replace(CANONICAL, viewport=(1.0, 3.0, 0.0, 1.0), projection="parallel")
-    found = one(json.loads(written([PosedCamera(camera)], "gltf")[""])).camera
+    found = one(json.loads(written([PosedCamera(camera)], "gltf"))).camera
     assert found.eye == pytest.approx((2, 0.5, 0))
     assert found.viewport == pytest.approx((-1, 1, -0.5, 0.5))
 
 
 def test_the_cameras_of_a_glb_are_those_of_a_gltf() -> None:
     texts = [
-        written([PosedCamera(CANONICAL)], "gltf", Options(is_binary=is_binary))[""]
+        written([PosedCamera(CANONICAL)], "gltf", Options(is_binary=is_binary))
         for is_binary in (False, True)
     ]
     assert texts[1].startswith(b"glTF") and not texts[0].startswith(b"glTF")
