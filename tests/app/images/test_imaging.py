@@ -37,9 +37,6 @@ def test_a_resolution_is_seen_whole():
     state = with_options(state, images={"magnification": 8.0, "center": (0.1, 0.1)})
     state = imaging.with_resolution(state, (64, 36))
     assert (state.images.magnification, state.images.center) == (None, (0.5, 0.5))
-    assert imaging.resolution_text(state.images) == "64 x 36"
-    many = with_options(state, images={"samples": 16})
-    assert imaging.resolution_text(many.images) == "64 x 36, 16 samples"
 
 
 def test_magnifying_keeps_the_middle_and_all_of_the_image_has_its_own():
