@@ -25,6 +25,7 @@ INTERRUPTED = 128 + signal.SIGINT
 LEFT = {
     "install-desktop": "start lucida in a terminal",
     "--show": "`lucida compare` marks the causes; the window's view Compare shows the difference",
+    "--photographs": "`lucida render --view SET --all` draws an image for each camera",
     "--undistort": "COLMAP's image_undistorter undistorts the photographs of a data set",
 }
 BROKEN_PIPE = 128 + 13  # SIGPIPE, which Windows does not have

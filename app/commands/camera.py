@@ -92,12 +92,7 @@ def run(arguments: argparse.Namespace) -> int:
     source = source_of(file)
     if arguments.output is not None:
         _check_is_another(arguments.output, source)
-    options = Options(
-        arguments.pixel_origin,
-        arguments.size,
-        arguments.ignore_distortion,
-        is_binary=(arguments.output or "").lower().endswith(".glb"),
-    )
+    options = Options(arguments.pixel_origin, arguments.size, arguments.ignore_distortion)
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
     own = found.cameras if chosen is None else (chosen,)
     if arguments.size is not None:

@@ -8,7 +8,7 @@ from lucida.app.cameras.camera_panel.actions import image_size
 from lucida.app.cameras.text import CALLED
 from lucida.app.ui.action import Action
 from lucida.app.ui.host import Host
-from lucida.renderer.files.cameras import FORMATS, Options, PosedCamera, written
+from lucida.renderer.files.cameras import FORMATS, PosedCamera, written
 from lucida.renderer.files.cameras.formats import Format
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError, one_line
@@ -39,8 +39,7 @@ def _save_dialog(window: Host, entry: Format) -> None:
         return
 
     def store(path: str) -> str:
-        options = Options(is_binary=path.lower().endswith(".glb"))
-        data = written([posed], entry.name, options)
+        data = written([posed], entry.name)
         with atomic_write(path) as file:
             file.write(data)
         return one_line(f"Saved the camera as {path} ({CALLED[entry.name]}).")

@@ -62,7 +62,7 @@ FORMATS = (
     Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, (".json",)),
     Format("opengl", "OpenGL's view and projection matrices", _MATRICES, (".txt",)),
     Format("opencv", "OpenCV's K, R and t, or a calibration of its family", _K, (".yml",)),
-    Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf", ".glb")),
+    Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf",)),
 )
 
 _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt")

@@ -21,13 +21,12 @@ class Options:
     """The command's options.
 
     pixel_origin: None for the format's own. size: for cameras that have none. ignore_distortion:
-    read a camera with a lens as a pinhole. is_binary: write glTF as a .glb file.
+    read a camera with a lens as a pinhole.
     """
 
     pixel_origin: PixelOrigin | None = None
     size: Size | None = None
     ignore_distortion: bool = False
-    is_binary: bool = False
 
 
 @dataclass(frozen=True)
