@@ -9,7 +9,6 @@ import argparse
 import contextlib
 import re
 import sys
-import time
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING, NoReturn
@@ -20,8 +19,6 @@ from lucida.renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
 from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
-    from tqdm import tqdm
-
     from lucida.renderer.camera.camera import Camera
     from lucida.renderer.files.cameras import PosedCamera
     from lucida.renderer.scene.model import Scene, View
@@ -261,34 +258,30 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
 
     If the ray tracer must be compiled, report that once in a line, also without a terminal.
     """
+    from tqdm import tqdm
+
     from lucida.renderer.system import compile_note
 
-    start = time.monotonic()
     told = compile_note.note()  # on earlier compilation
-    with contextlib.ExitStack() as shown:
-        bar: tqdm[NoReturn] | None = None
-
-        def report(fraction: float) -> None:
-            nonlocal bar, told
-            if bar is None and sys.stderr.isatty() and time.monotonic() - start >= BAR_DELAY_S:
-                bar = shown.enter_context(_bar(label, start))
-            if compile_note.note() != told:
-                told = compile_note.note()
-                (bar.write if bar is not None else print)(f"lucida: {told}", file=sys.stderr)
-            if bar is not None:
-                bar.update(fraction - bar.n)
-
-        yield report
-
-
-def _bar(label: str, start: float) -> tqdm[NoReturn]:
-    """Return a bar that started at that time."""
-    from tqdm import tqdm  # imported here: most images need no bar
-
     layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
-    bar: tqdm[NoReturn] = tqdm(total=1.0, desc=label, bar_format=layout, leave=False)
-    vars(bar)["start_t"] -= time.monotonic() - start
-    return bar
+    bar: tqdm[NoReturn] = tqdm(
+        total=1.0,
+        desc=label,
+        bar_format=layout,
+        leave=False,
+        delay=BAR_DELAY_S,
+        disable=not sys.stderr.isatty(),
+    )
+
+    def report(fraction: float) -> None:
+        nonlocal told
+        if compile_note.note() != told:
+            told = compile_note.note()
+            bar.write(f"lucida: {told}", file=sys.stderr)
+        bar.update(fraction - bar.n)
+
+    with bar:
+        yield report
 
 
 def _is_whole(text: str) -> bool:

@@ -97,7 +97,6 @@ class Renderers(ImageSize):
             self.size,
             state.options.shadows,
             state.options.mirrors,
-            state.images.channel,
             state.images.samples,
             state.images.lens_enlargement,
         )

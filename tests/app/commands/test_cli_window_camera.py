@@ -48,7 +48,7 @@ def test_a_photograph_is_laid_over_the_images(begun: list[Any], capsys: Any) -> 
     assert begun[0]["photograph"] == str(Path("photo.png").absolute()) and not begun[0]["code"]
     Path("broken.jpg").write_text("x")
     for name, problem in {
-        "phot.png": "does not exist; did you mean '[^']*photo.png'",
+        "phot.png": "does not exist; check its name and folder",
         "broken.jpg": "is no picture that can be read",
     }.items():
         assert main([name]) == 2
