@@ -24,6 +24,7 @@ INTERRUPTED = 128 + signal.SIGINT
 # Commands and options that left, and what to use instead.
 LEFT = {
     "install-desktop": "start lucida in a terminal",
+    "--ignore-distortion": "--lens none takes a lens off, in `lucida camera` --no-lens",
     "--time-limit": "a task file has it: seconds = 60",
     "--memory-limit": "a task file has it: memory_mb = 2048",
     "--show": "`lucida compare` marks the causes; the window's view Compare shows the difference",

@@ -10,7 +10,6 @@ import contextlib
 import re
 import sys
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, NoReturn
 
 from lucida.app.cameras.options import with_camera_options
@@ -204,8 +203,6 @@ def scene_and_view(
     posed: the result of own_camera().
     """
     from lucida.renderer.files import load_scene
-    from lucida.renderer.files.cameras import PosedCamera
-    from lucida.renderer.files.cameras.distortion import without_lens
     from lucida.renderer.scene.model import View
 
     # Check for quick mistakes first.
@@ -219,13 +216,8 @@ def scene_and_view(
         print(f"lucida: {one_line(note)}", file=sys.stderr)
     if posed is not None:
         follows = arguments.viewport is not None or arguments.fit
-        say_changes([posed], None if follows else arguments.size)
-    view = view or with_camera_options(arguments, scene.view)
-    if arguments.ignore_distortion and view.camera.lens is not None:  # the scene's, or --lens
-        pinhole = without_lens(PosedCamera(view.camera, arguments.size))
-        say_changes([pinhole])
-        view = replace(view, camera=pinhole.camera)
-    return scene, view
+        say_changes(posed, None if follows else arguments.size)
+    return scene, view or with_camera_options(arguments, scene.view)
 
 
 def add_lens_options(parser: argparse.ArgumentParser) -> None:

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING
 
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import (
-    add_distortion_option,
     say_changes,
     say_notes,
     source_of,
@@ -75,7 +74,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="the place of whole numbers in INPUT and OUT: pixels' centres (OpenCV)\n"
         "or corners, with centres at .5 (default: each format's own)",
     )
-    add_distortion_option(parser)
+    parser.add_argument("--no-lens", action="store_true", help="take a camera's lens off")
     parser.add_argument("--json", action="store_true", help="describe it as one JSON object")
 
 
@@ -92,12 +91,11 @@ def run(arguments: argparse.Namespace) -> int:
     source = source_of(file)
     if arguments.output is not None:
         _check_is_another(arguments.output, source)
-    options = Options(arguments.pixel_origin, arguments.size, arguments.ignore_distortion)
+    options = Options(arguments.pixel_origin, arguments.size)
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
     own = found.cameras if chosen is None else (chosen,)
-    if arguments.size is not None:
-        found = replace(found, cameras=tuple(_sized(arguments, c) for c in found.cameras))
-        chosen = None if chosen is None else _sized(arguments, chosen)
+    found = replace(found, cameras=tuple(_changed(arguments, c) for c in found.cameras))
+    chosen = None if chosen is None else _changed(arguments, chosen)
     if target is None:
         print(_described(arguments, found, chosen))
         return 0
@@ -112,7 +110,7 @@ def run(arguments: argparse.Namespace) -> int:
         told = counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
     say_notes(found, file)
-    say_changes(own, arguments.size)
+    say_changes(own[0], arguments.size)
     return 0
 
 
@@ -159,8 +157,10 @@ def _target(arguments: argparse.Namespace) -> Format | None:
     return target
 
 
-def _sized(arguments: argparse.Namespace, posed: PosedCamera) -> PosedCamera:
-    return replace(posed, size=arguments.size)
+def _changed(arguments: argparse.Namespace, posed: PosedCamera) -> PosedCamera:
+    """Return a camera with the requested size, and without its lens if that was requested."""
+    camera = posed.camera.pinhole if arguments.no_lens else posed.camera
+    return replace(posed, camera=camera, size=arguments.size or posed.size)
 
 
 def _check_is_another(output: str, source: Given) -> None:

@@ -60,7 +60,7 @@ def read(given: Given, options: Options) -> CameraSet:
     for number, found in lenses.items():
         (fx, _, cx), (_, fy, cy), _ = found.matrix.tolist()
         viewport = viewport_of(fx, fy, cx, cy, found.size, origin)
-        optics[number] = viewport, lens_of(found.model, found.coefficients, options)
+        optics[number] = viewport, lens_of(found.model, found.coefficients)
     photographs = _photographs(folder)
     numbers = np.array([image.pose for image in images]).reshape(-1, 7)
     with naming(folder / f"images{kind}"):
@@ -74,11 +74,11 @@ def read(given: Given, options: Options) -> CameraSet:
                 problem = f"{image.camera} is not in cameras{kind}"
                 raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
             u, v, w = basis
-            viewport, (lens, ignored) = optics[image.camera]
+            viewport, lens = optics[image.camera]
             camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
         photograph = _photograph(photographs, image.name)
         size = lenses[image.camera].size
-        posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
+        posed.append(PosedCamera(camera, size, image.name, photograph))
     taken = (
         f"the {kind} files in {folder}",
         "camera from world, y down, z forward",

@@ -3,13 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import replace
-from typing import NamedTuple
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras.given import Options
-from lucida.renderer.files.cameras.posed import PosedCamera
 from lucida.renderer.system.errors import LucidaError
 
 # OpenCV's coefficients, in the order of its vectors; a fisheye has k1 to k4.
@@ -18,15 +14,9 @@ COUNTS = (4, 5, 8, 12, 14)  # allowed lengths of a vector
 FISHEYE_NAMES = ("k1", "k2", "k3", "k4")
 
 
-class FileLens(NamedTuple):
-    """A file's lens. used: None for a pinhole. ignored: the lens, if it was to be ignored."""
-
-    used: Lens | None
-    ignored: Lens | None
-
-
-def lens_of(model: str, coefficients: Mapping[str, float], options: Options) -> FileLens:
-    """Return a lens without the coefficients that are 0. A fisheye is a lens even if all are 0.
+def lens_of(model: str, coefficients: Mapping[str, float]) -> Lens | None:
+    """Return a lens without the coefficients that are 0, None for a pinhole. A fisheye is a lens
+    even if all are 0.
 
     model: of Lens. Raises LucidaError for a tilted sensor, which Lens does not have.
     """
@@ -35,14 +25,7 @@ def lens_of(model: str, coefficients: Mapping[str, float], options: Options) -> 
             problem = f"{coefficients[tilt]:g} is a tilted sensor's, which is not supported"
             raise LucidaError(tilt, problem, "calibrate without CALIB_TILTED_MODEL")
     known = {name: value for name, value in coefficients.items() if value}
-    lens = Lens(model, known) if known or model not in ("brown", "fov") else None
-    return FileLens(None, lens) if options.ignore_distortion else FileLens(lens, None)
-
-
-def without_lens(posed: PosedCamera) -> PosedCamera:
-    """Return the pinhole, which remembers the lens that is ignored."""
-    lens = posed.camera.lens
-    return posed if lens is None else replace(posed, camera=posed.camera.pinhole, ignored=lens)
+    return Lens(model, known) if known or model not in ("brown", "fov") else None
 
 
 def check_held(camera: Camera, models: Collection[str], target: str) -> None:
@@ -50,4 +33,4 @@ def check_held(camera: Camera, models: Collection[str], target: str) -> None:
     lens = camera.lens
     if lens is not None and lens.model not in models:
         problem = f"{lens.model} is a lens that {target} cannot hold"
-        raise LucidaError("lens", problem, "remove the lens, or give --ignore-distortion")
+        raise LucidaError("lens", problem, "take it off: Camera > Lens > No lens, or --lens none")

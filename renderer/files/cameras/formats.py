@@ -20,7 +20,7 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from lucida.renderer.files.cameras.distortion import check_held, without_lens
+from lucida.renderer.files.cameras.distortion import check_held
 from lucida.renderer.files.cameras.given import Given, Options, from_json, given
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
 from lucida.renderer.files.reading import naming, suggestion
@@ -152,8 +152,6 @@ def written(cameras: Sequence[PosedCamera], format: str, options: Options | None
     """
     entry, options = format_named(format), options or Options()
     entry.check_written()
-    if options.ignore_distortion:
-        cameras = [without_lens(posed) for posed in cameras]
     for posed in cameras:
         with under(posed.name):
             models = getattr(entry.module, "LENSES", ())

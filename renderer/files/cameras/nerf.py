@@ -22,7 +22,7 @@ from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import pixel_offset
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, FileLens, lens_of
+from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, lens_of
 from lucida.renderer.files.cameras.entries import (
     ORIGIN_TOLD,
     affine,
@@ -153,7 +153,7 @@ def _camera(table: Table, folder: Path | None, options: Options) -> PosedCamera:
         raise LucidaError("w", "is missing", "give w and h, or --size WxH")
     pixels = size or _ANY_SIZE
     K = _intrinsics(table, pixels, pixel_offset(options.pixel_origin or "corner"))
-    lens, ignored = _lens(table, options)
+    lens = _lens(table)
     try:
         with np.errstate(all="ignore"):
             pose = np.linalg.inv(world_from_camera)
@@ -165,7 +165,7 @@ def _camera(table: Table, folder: Path | None, options: Options) -> PosedCamera:
     except LucidaError as error:
         field = "fl_x" if error.field == "K" else "transform_matrix"
         raise LucidaError(field, error.problem, error.remedy) from None
-    return PosedCamera(camera, size, name.removeprefix("./"), image, ignored=ignored)
+    return PosedCamera(camera, size, name.removeprefix("./"), image)
 
 
 def _intrinsics(table: Table, size: Size, offset: float) -> Floats:
@@ -197,7 +197,7 @@ def _half_width(table: Table, name: str) -> float:
     return math.tan(angle / 2)
 
 
-def _lens(table: Table, options: Options) -> FileLens:
+def _lens(table: Table) -> Lens | None:
     given = table.get("camera_model", "")
     model = _MODELS.get(given) if isinstance(given, str) else None
     if model is None:
@@ -207,7 +207,7 @@ def _lens(table: Table, options: Options) -> FileLens:
         model = "fisheye"
     names = _FISHEYE if model == "fisheye" else _OPENCV
     found = {own: number_of(name, table[name]) for name, own in names.items() if name in table}
-    return lens_of(model, found, options)
+    return lens_of(model, found)
 
 
 def _model_for(cameras: Sequence[PosedCamera]) -> str:
@@ -230,8 +230,7 @@ def _coefficients(lens: Lens | None, model: str) -> dict[str, float]:
     for name, value in lens.coefficients.items():
         if value and name not in known.values():
             problem = f"{value:g} is a term that a transforms.json has not"
-            remedy = "leave it out, or give --ignore-distortion"
-            raise LucidaError(f"lens.{name}", problem, remedy)
+            raise LucidaError(f"lens.{name}", problem, "leave it out")
     return {written: lens.coefficient(name) for written, name in known.items()}
 
 

@@ -86,7 +86,7 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
             # In ROS, P is of the rectified image, into which R rotates.
             rectified = ("P",) if "t" in keys else ("P", "R")
         others = [keys.pop(role)[0] for role in rectified if role in keys]
-        lens, ignored = lens_in(keys, options)
+        lens = lens_in(keys)
         intrinsics = _intrinsics(keys)
         size, sizing = _size(keys, intrinsics[1], options, origin)
         poses, told, more = _poses(keys, pose)
@@ -95,7 +95,7 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
         for called, pose_of_one in poses:
             camera = _camera(intrinsics, (called, pose_of_one), size, origin, lens)
             own = name if len(poses) == 1 else called
-            cameras.append(PosedCamera(camera, size, own, ignored=ignored))
+            cameras.append(PosedCamera(camera, size, own))
         taken |= dict.fromkeys([told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]])
         if not all(entries.is_rotation(pose[:3, :3]) for _, pose in poses):
             taken["R is no rotation, and held as it is"] = None

@@ -18,7 +18,6 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import distortion
 from lucida.renderer.files.cameras.distortion import NAMES
 from lucida.renderer.files.cameras.entries import entries_of, flat, notes_on, number_of, plain
-from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.files.cameras.notations import Table
 from lucida.renderer.system.errors import LucidaError
 
@@ -134,7 +133,7 @@ def _owner(name: str) -> str:
     return _PART.sub("", name.rpartition(".")[0])
 
 
-def lens_in(keys: Keys, options: Options) -> distortion.FileLens:
+def lens_in(keys: Keys) -> Lens | None:
     """Return the lens. Raises LucidaError."""
     models = [_model(*keys[role]) for role in _MODEL_ROLES if role in keys]
     model = next(filter(None, models), "brown")
@@ -153,7 +152,7 @@ def lens_in(keys: Keys, options: Options) -> distortion.FileLens:
         coefficients = dict(zip(known, numbers.tolist(), strict=False))
     else:
         coefficients = {name: float(flat(*keys[name])[0]) for name in known if name in keys}
-    return distortion.lens_of(model, coefficients, options)
+    return distortion.lens_of(model, coefficients)
 
 
 def _model(name: str, value: object) -> str:
@@ -172,7 +171,7 @@ def lens_table(lens: Lens | None) -> Table:
         return {"distortion_coefficients": np.zeros((5, 1))}
     if lens.coefficient("r8"):
         problem = f"{lens.coefficient('r8'):g} is a term that OpenCV has not"
-        raise LucidaError("lens.r8", problem, "leave it out, or give --ignore-distortion")
+        raise LucidaError("lens.r8", problem, "leave it out")
     table: Table = {"distortion_model": "equidistant", "fisheye_model": 1}
     names: tuple[str, ...] = distortion.FISHEYE_NAMES
     if lens.model == "brown":

@@ -145,7 +145,6 @@ class TestWriting:
 
 
 LENS = "brown, k1 = -0.2"
-IGNORED = f"{LENS} ignored"
 
 
 class TestDistortion:
@@ -155,16 +154,10 @@ class TestDistortion:
         assert listed["lens"] == facts(capsys, "lens.json#0")["lens"] == LENS
         assert json.loads(told(capsys, "lens.json", "--json"))["cameras"][0]["lens"]["k1"] == -0.2
 
-    def test_what_is_ignored_is_said(self, capsys):
-        assert facts(capsys, "lens.json#0", "--ignore-distortion")["distortion"] == IGNORED
-        assert main(["camera", "lens.json#0", "--ignore-distortion", "--to", "view"]) == 0
-        out, err = capsys.readouterr()
-        assert out.startswith("lucida = 1\n")
-        assert err == f"lucida: {IGNORED}\n"
-        data = json.loads(told(capsys, "lens.json", "--ignore-distortion", "--json"))
-        assert data["cameras"][0]["ignored"] == {"model": "brown", "k1": -0.2}
-        of_set = facts(capsys, "lens.json", "--ignore-distortion")["distortion"]
-        assert of_set == IGNORED
+    def test_it_is_taken_off(self, capsys):
+        assert "lens" not in facts(capsys, "lens.json", "--no-lens")
+        data = json.loads(told(capsys, "lens.json#0", "--no-lens", "--to", "gltf"))
+        assert len(data["cameras"]) == 1
 
 
 MISTAKES = {
@@ -264,12 +257,13 @@ class TestView:
     def test_a_photograph_is_shown_in_a_part_of_its_pixels(self, own, shown):
         assert shown_size(own) == shown
 
-    def test_distortion_is_ignored_only_when_asked_for(self, capsys):
-        words = ["pick", "spheres", "0", "0", "--view", "lens.json#0"]
-        assert main(words) == 0
-        assert capsys.readouterr().err == ""
-        assert main([*words, "--ignore-distortion"]) == 0
-        assert capsys.readouterr().err == f"lucida: {IGNORED}\n"
+    def test_a_lens_is_taken_off_as_that_of_any_camera(self, capsys):
+        words = ["pick", "spheres", "0", "0", "--json", "--view", "lens.json#0"]
+        rays = []
+        for lens in ([], ["--lens", "none"]):
+            assert main([*words, *lens]) == 0
+            rays.append(json.loads(capsys.readouterr().out)["ray"]["direction"])
+        assert rays[0] != rays[1]
 
     @pytest.mark.parametrize(
         ("view", "said"),

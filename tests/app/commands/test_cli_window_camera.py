@@ -13,7 +13,6 @@ from PIL import Image
 from lucida.app.cli import main
 from lucida.app.window import launch
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.scene.model import View
 
 LENS = {"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}
 
@@ -33,13 +32,6 @@ def test_a_camera_keeps_its_lens(begun: list[Any], capsys: pytest.CaptureFixture
     assert main(["lens.json"]) == 0
     assert begun[0]["view"].camera.lens == Lens("brown", {"k1": 0.5})
     assert not capsys.readouterr().err
-
-
-def test_what_is_ignored_is_said(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
-    assert main(["lens.json", "--ignore-distortion"]) == 0
-    assert "brown, k1 = 0.5 ignored" in capsys.readouterr().err
-    assert isinstance(begun[0]["view"], View) and begun[0]["view"].camera.lens is None
-    assert begun[0]["cameras"] is None
 
 
 def test_a_photograph_is_laid_over_the_images(begun: list[Any], capsys: Any) -> None:

@@ -14,7 +14,6 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import colmap_lenses
 from lucida.renderer.files.cameras.colmap_lenses import ColmapLens
 from lucida.renderer.files.cameras.distortion import COUNTS, FISHEYE_NAMES, NAMES, lens_of
-from lucida.renderer.files.cameras.given import Options
 
 K = np.array([[500.0, 0.0, 320.0], [0.0, 500.0, 240.0], [0.0, 0.0, 1.0]])
 SIZE = (640, 480)
@@ -51,8 +50,8 @@ def colmap_lens(model: str, values: list[float]) -> ColmapLens:
 
 
 def used(model: str, coefficients: Mapping[str, float]) -> Lens:
-    lens, ignored = lens_of(model, coefficients, Options())
-    assert lens is not None and ignored is None
+    lens = lens_of(model, coefficients)
+    assert lens is not None
     return lens
 
 
@@ -65,7 +64,7 @@ def test_a_corner_moves_as_in_colmap(model: str, parameters: str, largest: float
 def test_a_colmap_lens_without_distortion_is_a_pinhole_unless_it_is_a_fisheye() -> None:
     for model, parameters, _ in COLMAP:
         values = [0.0 if -0.2 < float(word) < 1 else float(word) for word in parameters.split()]
-        lens, _ = lens_of(*colmap_lens(model, values)[2:], Options())
+        lens = lens_of(*colmap_lens(model, values)[2:])
         assert (lens is None) == ("FISHEYE" not in model), model
 
 
@@ -87,7 +86,7 @@ def test_opencvs_vectors_move_a_corner_as_in_opencv(count: int, largest: float) 
 def test_a_tilted_sensor_is_refused() -> None:
     tilted = dict(zip(NAMES, VECTOR, strict=True))
     with pytest.raises(LucidaError, match=r"tauX: 0\.02 is a tilted sensor's"):
-        lens_of("brown", tilted, Options())
+        lens_of("brown", tilted)
     assert used("brown", tilted | {"tauX": 0.0, "tauY": 0.0}).coefficient("s4") == 0.001
     assert len(NAMES) == COUNTS[-1]
 
@@ -96,4 +95,4 @@ def test_a_fisheye_distorts_without_coefficients() -> None:
     r = math.hypot(320.5, 240.5) / 500
     lens = used("fisheye", dict.fromkeys(FISHEYE_NAMES, 0.0))
     assert moved(lens, "center") == pytest.approx(500 * (r - math.atan(r)))
-    assert lens_of("brown", dict.fromkeys(NAMES, 0.0), Options()) == (None, None)
+    assert lens_of("brown", dict.fromkeys(NAMES, 0.0)) is None
