@@ -24,6 +24,7 @@ INTERRUPTED = 128 + signal.SIGINT
 # Commands and options that left, and what to use instead.
 LEFT = {
     "install-desktop": "start lucida in a terminal",
+    "--enlargement": "Rasterizer.render(enlargement=4) in Python has it",
     "--ignore-distortion": "--lens none takes a lens off, in `lucida camera` --no-lens",
     "--time-limit": "a task file has it: seconds = 60",
     "--memory-limit": "a task file has it: memory_mb = 2048",

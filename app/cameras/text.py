@@ -30,11 +30,6 @@ FORMATS_OF: dict[Form, str] = {
     "NeRF": "nerf",
     "glTF": "gltf",
 }
-# What people call the formats, by their names.
-CALLED = {
-    **{name: str(form) for form, name in FORMATS_OF.items()},
-    "opengl": "OpenGL matrices",
-}
 
 
 @dataclass(frozen=True)

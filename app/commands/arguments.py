@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from lucida.app.cameras.options import with_camera_options
 from lucida.app.commands.given_camera import say_changes, viewed
-from lucida.renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
+from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
@@ -218,18 +218,6 @@ def scene_and_view(
         follows = arguments.viewport is not None or arguments.fit
         say_changes(posed, None if follows else arguments.size)
     return scene, view or with_camera_options(arguments, scene.view)
-
-
-def add_lens_options(parser: argparse.ArgumentParser) -> None:
-    """Add how the rasterizer draws the image of a camera with a lens."""
-    parser.add_argument(
-        "--enlargement",
-        type=int,
-        choices=ENLARGEMENTS,
-        default=ENLARGEMENT,
-        help="pixels a side of the pinhole image, for each pixel of a lens's image\n"
-        "that looks up its primitive there (default: 2)",
-    )
 
 
 def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:

@@ -42,7 +42,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
     )
-    common.add_lens_options(parser)
     common.add_from_option(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
@@ -61,7 +60,6 @@ def run(arguments: argparse.Namespace) -> int:
             arguments.size,
             arguments.backend,
             progress,
-            arguments.enlargement,
         )
     if arguments.output is not None:
         write_picture(arguments.output, comparison.difference_image())

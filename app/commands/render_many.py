@@ -57,8 +57,7 @@ def render_in_parts(
 
 
 def _look(arguments: argparse.Namespace, ending: str) -> Look:
-    look, channel = look_of(arguments), arguments.channel
-    return replace(look, channel=channel, ending=ending, enlargement=arguments.enlargement)
+    return replace(look_of(arguments), channel=arguments.channel, ending=ending)
 
 
 def render_all(arguments: argparse.Namespace) -> int:

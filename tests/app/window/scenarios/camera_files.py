@@ -12,7 +12,7 @@ from lucida.app.window import exporting
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files import load_scene
-from lucida.renderer.files.cameras import PosedCamera, read_cameras, written
+from lucida.renderer.files.cameras import PosedCamera, written
 from lucida.renderer.system.cancelling import check_cancelled
 
 CTRL = Key.mod_ctrl
@@ -111,17 +111,6 @@ def drive_a_dropped_camera_is_taken_with_its_lens(d):
     d.until(lambda: same_camera(d.state.camera, AIMED))
     d.frames(3)
     assert "COLMAP" in said(d)
-
-
-def drive_the_camera_is_saved_in_every_format(d):
-    shown, size = d.renderers.camera(d.state), d.renderers.size
-    path = d.folder / "saved.yml"
-    save_as(d, "Save camera as/OpenCV (.yml)...", path)
-    d.until(lambda: str(path) in said(d))
-    assert not d.files.message
-    posed = read_cameras(path).cameras[0]
-    assert posed.size == size
-    assert same_camera(posed.camera, shown, size)
 
 
 def drive_a_scene_is_exported_and_what_is_left_out_is_listed(d):
