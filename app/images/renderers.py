@@ -393,6 +393,5 @@ def look_of(options: ImageOptions) -> Look:
         options.channel,
         options.exposure_ev,
         options.transfer,
-        options.component,
         options.dissolved,
     )

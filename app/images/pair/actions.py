@@ -73,19 +73,6 @@ IMAGE = (
         choosing("Image/Channel", name, "images.channel", channel, f"Alt+{number}", tip=tip)
         for number, (channel, (name, tip)) in enumerate(CHANNELS.items(), 1)
     ),
-    *(
-        choosing(
-            "Image/Channel",
-            f"{component.capitalize()} only",
-            "images.component",
-            component,
-            f"Alt+{component[0].upper()}",
-            off="rgb",
-            separated=component == "red",
-            tip=f"the {component} channel only, as gray",
-        )
-        for component in ("red", "green", "blue")
-    ),
     *map(_resolution, (None, *RESOLUTIONS)),
     Action(
         RESOLUTION,
