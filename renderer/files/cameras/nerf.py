@@ -26,7 +26,6 @@ from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, lens_of
 from lucida.renderer.files.cameras.entries import (
     ORIGIN_TOLD,
     affine,
-    is_rotation,
     notes_on,
     number_of,
     size_of,
@@ -91,8 +90,6 @@ def read(given: Given, options: Options) -> CameraSet:
             raise error.within(f"frames[{i}]") if inside else error from None
     taken = ["transform_matrix takes the camera's points to the world"]
     taken += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
-    if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
-        taken.append("transform_matrix is no rotation, and held as it is")
     if any(map(_disagree, tables)):
         taken.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     notes = ["no w and h: a square image is taken"] * (cameras[0].size is None)

@@ -43,7 +43,7 @@ from lucida.renderer.files.cameras.opencv_keys import (
 )
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image, one_of
 from lucida.renderer.files.cameras.rigid import rigid
-from lucida.renderer.files.cameras.rotations import from_vector, to_vector
+from lucida.renderer.files.cameras.rotations import from_vector
 from lucida.renderer.system.errors import LucidaError
 
 LENSES = ("brown", "fisheye", "equidistant")
@@ -89,16 +89,11 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
         lens = lens_in(keys)
         intrinsics = _intrinsics(keys)
         size, sizing = _size(keys, intrinsics[1], options, origin)
-        poses, told, more = _poses(keys, pose)
-        pose = poses[0][1]
+        (called, pose), told, more = _pose(keys, pose)
         name = (name if len(found) > 1 else "") or str(keys.get("name", ("", ""))[1] or "")
-        for called, pose_of_one in poses:
-            camera = _camera(intrinsics, (called, pose_of_one), size, origin, lens)
-            own = name if len(poses) == 1 else called
-            cameras.append(PosedCamera(camera, size, own))
+        camera = _camera(intrinsics, (called, pose), size, origin, lens)
+        cameras.append(PosedCamera(camera, size, name))
         taken |= dict.fromkeys([told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]])
-        if not all(entries.is_rotation(pose[:3, :3]) for _, pose in poses):
-            taken["R is no rotation, and held as it is"] = None
         notes |= dict.fromkeys([*filter(None, [sizing]), *entries.notes_on([*others, *more])])
     notes |= dict.fromkeys(unused)
     return CameraSet("opencv", tuple(cameras), (*taken, *notes), notes=tuple(notes))
@@ -121,7 +116,6 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
         **lens_table(camera.lens),
         "R": R,
         "t": t[:, None],
-        "rvec": to_vector(R)[:, None],
     }
     return to_yaml(table, notes).encode()
 
@@ -190,32 +184,22 @@ def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, s
     return size, told
 
 
-def _poses(keys: Keys, previous: Floats) -> tuple[list[_Pose], str, list[str]]:
-    """Return the poses of a camera, their origin in words, and the names of poses that are not
-    used.
+def _pose(keys: Keys, previous: Floats) -> tuple[_Pose, str, list[str]]:
+    """Return the pose of a camera, its origin in words, and the names of poses that are not used.
 
     previous: the pose of the camera before it.
     """
     if found := keys.get("from previous"):
         told = f"{found[0]} places it at the camera before it"
-        return [(found[0], affine(*found) @ previous)], told, []
-    poses = list(_single_poses(keys))
-    names = [name for name, _, _ in poses]
-    if found := keys.get("views"):
-        numbers = flat(*found)
-        if not numbers.size or numbers.size % 6:
-            problem = f"has {numbers.size} numbers"
-            raise LucidaError(found[0], problem, "give 6 a row: rvec and tvec")
-        rows = numbers.reshape(-1, 6)
-        views = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
-        return views, f"{found[0]}: rvec and tvec of each picture of the calibration", names
+        return (found[0], affine(*found) @ previous), told, []
+    poses = list(_poses(keys))
     if not poses:
-        return [("", np.eye(4))], "no pose: the camera stands at the origin", []
+        return ("", np.eye(4)), "no pose: the camera stands at the origin", []
     first, pose, told = poses[0]
-    return [(first, pose)], told, names[1:]
+    return (first, pose), told, [name for name, _, _ in poses[1:]]
 
 
-def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
+def _poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
     """Yield the name of each pose that a camera has, camera_from_world, and its origin in words."""
     if found := keys.get("from world"):
         yield found[0], affine(*found), f"{found[0]} takes world points to the camera"

@@ -39,7 +39,6 @@ _NAMES = {
     "w2c",
     "to world": "worldfromcamera cameratoworld cam2world c2w",
     "from previous": "tcncnm1",  # Kalibr's: from the camera before it
-    "views": "extrinsicparameters",  # of a calibration's pictures: rvec and tvec, one row each
     "lens": "distortioncoefficients distortioncoefficient distortioncoeffs distortioncoeff "
     "distortioncoefs distortionparameters distortionparams distortionvector distcoeffs distcoeff "
     "distcoefs distcoef distortion dist d",

@@ -20,17 +20,6 @@ def from_vector(vector: Floats) -> Floats:
     return rotation_of([math.cos(angle / 2), *(math.sin(angle / 2) * axis)])
 
 
-def to_vector(rotation: Floats) -> Floats:
-    """Return the rotation vector (3,), no longer than pi, of a rotation matrix (3, 3)."""
-    from trimesh.transformations import quaternion_from_matrix  # takes long to import
-
-    pose = np.eye(4)
-    pose[:3, :3] = rotation
-    real, *axis = quaternion_from_matrix(pose).tolist()  # real >= 0
-    length = float(np.linalg.norm(axis))
-    return np.array(axis) * (2 * math.atan2(length, real) / length if length else 2.0)
-
-
 def rotation_of(quaternion: ArrayLike) -> Floats:
     """Return the rotation matrices (..., 3, 3) of quaternions (w, x, y, z), (..., 4), of any
     length.
