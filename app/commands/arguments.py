@@ -18,6 +18,8 @@ from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
+    from tqdm import tqdm
+
     from lucida.renderer.camera.camera import Camera
     from lucida.renderer.files.cameras import PosedCamera
     from lucida.renderer.scene.model import Scene, View
@@ -238,30 +240,28 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
 
     If the ray tracer must be compiled, report that once in a line, also without a terminal.
     """
-    from tqdm import tqdm
-
     from lucida.renderer.system import compile_note
 
     told = compile_note.note()  # on earlier compilation
-    layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
-    bar: tqdm[NoReturn] = tqdm(
-        total=1.0,
-        desc=label,
-        bar_format=layout,
-        leave=False,
-        delay=BAR_DELAY_S,
-        disable=not sys.stderr.isatty(),
-    )
+    bar = _bar(label) if sys.stderr.isatty() else None
 
     def report(fraction: float) -> None:
         nonlocal told
         if compile_note.note() != told:
             told = compile_note.note()
-            bar.write(f"lucida: {told}", file=sys.stderr)
-        bar.update(fraction - bar.n)
+            (bar.write if bar is not None else print)(f"lucida: {told}", file=sys.stderr)
+        if bar is not None:
+            bar.update(fraction - bar.n)
 
-    with bar:
+    with bar or contextlib.nullcontext():
         yield report
+
+
+def _bar(label: str) -> tqdm[NoReturn]:
+    from tqdm import tqdm
+
+    layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
+    return tqdm(total=1.0, desc=label, bar_format=layout, leave=False, delay=BAR_DELAY_S)
 
 
 def _is_whole(text: str) -> bool:
