@@ -70,9 +70,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.app.cameras.films.frames import stored
     from lucida.renderer.compare.raster_and_ray import compare
     from lucida.renderer.images import PICTURES, check_image_path, write_picture
+    from lucida.renderer.images.frame import stored
     from lucida.renderer.system.errors import LucidaError
 
     show, channel, gain = arguments.show, arguments.channel, arguments.gain

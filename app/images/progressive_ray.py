@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from lucida.app.images.request import ImageRequest
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.coarseness import reduced
-from lucida.renderer.images.frame import CHANNELS, Frame
+from lucida.renderer.images.frame import CHANNELS, Frame, stored
 from lucida.renderer.images.samples import Progress, supersampled
 from lucida.renderer.scene.model import Scene
 
@@ -56,6 +56,9 @@ class RayImage:
         """Return a channel for display."""
         if channel == "color" and self.mean is not None:
             return self.mean
+        if channel == "z":
+            z = self.request.camera.z_from_t(self.frame.channel("depth"), self.frame.size)
+            return z.astype(np.float32)
         return self.frame.channel(channel)
 
 
@@ -211,7 +214,7 @@ class LiveTrace:
     def _trace(self, tracer: Tracer, wanted: Wanted) -> None:
         """Trace an image, unless a newer request comes that does not wait for it."""
         request, factor = wanted
-        channels = CHANNELS if factor == 1 else (request.channel,)
+        channels = CHANNELS if factor == 1 else (stored(request.channel),)
         job = tracer.start(request.camera, reduced(request.size, factor), channels)
         patience_s = FULL_PATIENCE_S if factor == 1 else COARSE_PATIENCE_S
         frame = self._finish(job, wanted, patience_s)
@@ -262,7 +265,9 @@ class LiveTrace:
     def _has_channel(self, request: ImageRequest) -> bool:
         """Return True if the newest request's image has this request's channel, or will have it."""
         newest = self._newest
-        return newest is None or newest[1] == 1 or newest[0].channel == request.channel
+        if newest is None or newest[1] == 1:
+            return True
+        return stored(newest[0].channel) == stored(request.channel)
 
     def _is_stale(self, wanted: Wanted) -> bool:
         return self._closed or self._newest is not wanted

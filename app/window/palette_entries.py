@@ -28,7 +28,6 @@ OWN = {
     "Save scene": "export",
     "Export...": "gltf glb blender save scene camera renderer",
     "Save a picture of the window": "screenshot capture image png",
-    "Save a picture of the current view": "screenshot capture image png",
     "Export figure...": "diagram drawing vector svg pdf slides paper",
     "Quit": "exit close end",
     "Undo": "revert",

@@ -21,12 +21,12 @@ from lucida.app.state.session import Session, session_of
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.messages import listing_box, loading_box, message_box
-from lucida.app.ui.stage import Stage
+from lucida.app.ui.stage import Rect, Stage
 from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
 from lucida.app.web import ENDINGS as PAGES
-from lucida.app.window.capture import Captures, Rect
+from lucida.app.window.capture import Captures
 from lucida.app.window.documents import Documents
 from lucida.app.window.exporting import Exports
 from lucida.app.window.files import Files
@@ -108,11 +108,10 @@ class Shell:
     def toggle_full_screen(self) -> None:
         toggle_full_screen()
 
-    def picture(self, view: bool = False) -> None:
-        """Save a picture of the window, or of the current view, in the folder of pictures."""
+    def picture(self) -> None:
+        """Save a picture of the window in the folder of pictures."""
         try:
-            what = self._view_in_use() if view else ""
-            self.captures.ask(self._rect(what), self.captures.default_path(what.lower()))
+            self.captures.ask(self.captures.default_path())
         except LucidaError as error:
             self.toasts.add(describe(error), good=False)
 
@@ -324,19 +323,3 @@ class Shell:
             keeper.mark()
         if keeper.due() and (session := self._session(window)) is not None:
             keeper.save(session)
-
-    def _view_in_use(self) -> str:
-        stage = self.stage
-        if stage.maximised:
-            return stage.maximised
-        if not stage.rects:
-            raise LucidaError("picture", "no view is shown", "show one in the menu Instruments")
-        return stage.focused if stage.focused in stage.rects else next(iter(stage.rects))
-
-    def _rect(self, view: str) -> Rect | None:
-        """Return a view's content rectangle, in framebuffer pixels; None for the whole window."""
-        if not view:
-            return None
-        scale = imgui.get_io().display_framebuffer_scale.x
-        left, top, right, bottom = (edge * scale for edge in self.stage.rects[view])
-        return left, top, right, bottom

@@ -16,7 +16,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import ENLARGEMENT
 from lucida.renderer.images import encode_image
-from lucida.renderer.images.frame import Frame
+from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.scene.model import Scene
 
 
@@ -91,11 +91,6 @@ class Drawing:
             size = size[0], shot.rows[1] - shot.rows[0]
         given = camera, size, channels, samples, progress, look.enlargement
         return self._rasterizer.render(*given)
-
-
-def stored(channel: str) -> str:
-    """Return the frame's channel that holds a channel of a file: z is in the depth's place."""
-    return "depth" if channel == "z" else channel
 
 
 def with_z(frame: Frame, camera: Camera) -> Frame:

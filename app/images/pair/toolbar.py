@@ -57,7 +57,8 @@ PARTS: tuple[tuple[str, Callable[[AppState], str], str, tuple[Action, ...]], ...
     (
         "channel",
         _channel_text,
-        "What both images show: colour, depth, normal or object; all of a colour, or one channel.",
+        "What both images show: colour, depth, normal, object or distance z; all of a colour, or"
+        " one channel.",
         (*SHOWN_CHANNEL, *SHOWN_COMPONENT, LINEAR),
     ),
     (

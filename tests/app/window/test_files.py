@@ -113,10 +113,10 @@ def test_a_picture_is_saved_and_told(tmp_path):
     captures = Captures(lambda: None, tmp_path)
     captures.after_drawing(TARGET)
     assert not captures.busy
-    path = captures.default_path("raster")
-    assert path.name.startswith("lucida raster ")
-    assert captures.default_path("raster") != path  # which may not be written yet
-    captures.ask((1, 1, 4, 3), path)
+    path = captures.default_path()
+    assert path.name.startswith("lucida ")
+    assert captures.default_path() != path  # which may not be written yet
+    captures.ask(path)
     captures.after_drawing(TARGET)
     wait_for(path.exists)
     told = None
@@ -124,8 +124,8 @@ def test_a_picture_is_saved_and_told(tmp_path):
         told = captures.poll()
     assert told[1]
     assert str(path) in told[0]
-    assert (np.asarray(Image.open(path)) == PIXELS[1:3, 1:4]).all()
-    captures.ask(None, tmp_path / "no" / "such" / "folder.png")
+    assert (np.asarray(Image.open(path)) == PIXELS).all()
+    captures.ask(tmp_path / "no" / "such" / "folder.png")
     captures.after_drawing(TARGET)
     told = None
     while told is None:
