@@ -187,7 +187,7 @@ function cameraLines({ camera, size, ray }, outside, scene, drawn) {
     parts.push(worldLine(outside, eye, imagePlanePoint(camera, 0, 0), "frustum"), worldLabel(outside, onViewport(0, 0), "(0, 0)", "label"));
   }
   if (drawn.target && drawn.up) {
-    const tip = plus(eye, times(scene.arrow, drawn.up));
+    const tip = plus(eye, drawn.up);
     parts.push(worldLine(outside, eye, drawn.target, "frustum"), worldDot(outside, drawn.target, "target"), worldLabel(outside, drawn.target, "target", "label"));
     parts.push(worldLine(outside, eye, tip, "up"), worldLabel(outside, tip, "up", "label"));
   }
