@@ -175,12 +175,6 @@ HELP = (
     Action("Help", "Documentation", lambda w: w.shell.open_document(FIRST)),
     Action(
         "Help",
-        "Find a command",
-        lambda w: w.shell.toggle_palette(),
-        "Ctrl+Shift+P",
-    ),
-    Action(
-        "Help",
         "Mouse and keys",
         lambda w: w.shell.toggle_help(),
         "F1",

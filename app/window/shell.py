@@ -1,4 +1,4 @@
-"""The parts around the views: palette, sheet, dialogs, toasts, pictures, the session.
+"""The parts around the views: sheet, dialogs, toasts, pictures, the session.
 
 It decides what Escape means.
 """
@@ -31,8 +31,6 @@ from lucida.app.window.documents import Documents
 from lucida.app.window.exporting import Exports
 from lucida.app.window.files import Files
 from lucida.app.window.hints import Hints
-from lucida.app.window.palette import CommandPalette
-from lucida.app.window.palette_entries import entries
 from lucida.app.window.platform import toggle_full_screen
 from lucida.app.window.proportion import Proportion
 from lucida.app.window.session_store import Keeper
@@ -62,7 +60,6 @@ class Shell:
     ) -> None:
         self.stage: Stage = Stage(views)
         self.proportion = Proportion()
-        self.palette: CommandPalette = CommandPalette()
         self.toasts = Toasts()
         self.captures = Captures(wake)
         self.exports = Exports()
@@ -95,9 +92,6 @@ class Shell:
 
     def focus_next(self, step: int) -> None:
         self.stage.focus_next(step)
-
-    def toggle_palette(self) -> None:
-        self.palette.toggle()
 
     def toggle_help(self) -> None:
         self.help = not self.help
@@ -134,9 +128,7 @@ class Shell:
         """Handle Escape: close what lies on top, end what takes long, make small what is large,
         leave presentation, clear the selection or the mark; one of these at a time.
         """
-        if self.palette.open:
-            self.palette.open = False
-        elif self.files.dialog.is_open:
+        if self.files.dialog.is_open:
             self.files.dialog.cancel()
         elif self.files.question is not None:
             self.files.question = None
@@ -213,9 +205,8 @@ class Shell:
         self.files.dialog.draw()
         self._waiting()
         self._messages(window)
-        self.palette.draw(lambda: entries(window, self.stage))
         self.toasts.draw()
-        self._hide_cursor(typing or self.palette.open or self.files.dialog.is_open)
+        self._hide_cursor(typing or self.files.dialog.is_open)
 
     def _waiting(self) -> None:
         """Draw the progress of what takes long, one thing at a time, and its result."""

@@ -76,12 +76,6 @@ class YourCode(Instrument):
         ),
         Action(MENU, "Edit your code", lambda host: _ask("edit", host), can=_has_file),
     )
-    synonyms = {
-        "Your code": "python program student check homework viewing_ray",
-        "Open Python code...": "student program .py your code",
-        "Write code to begin with...": "starter template python",
-        "Run your code": "check python again reload",
-    }
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)

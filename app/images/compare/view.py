@@ -47,7 +47,6 @@ class CompareView(ImageView):
     name = NAME
     title = "Compare  raster and ray"
     actions = COMPARING
-    synonyms = {"Compare raster and ray": "difference diff error wipe"}
     padding = ImVec2(8, 6)
     flags = int(imgui.WindowFlags_.no_scrollbar | imgui.WindowFlags_.no_scroll_with_mouse)
 

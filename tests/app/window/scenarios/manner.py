@@ -1,4 +1,4 @@
-"""The surroundings of the views: palette, sheet, layouts, looks, bookmarks, pictures."""
+"""The surroundings of the views: sheet, layouts, looks, bookmarks, pictures."""
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
@@ -21,34 +21,6 @@ def into(d, name):
     d.until(lambda: layout.current().name == name)
     layout.reset()
     d.frames(4)
-
-
-def drive_the_palette_does_what_is_typed(d):
-    palette = d.window.shell.palette
-    d.press(CTRL | SHIFT | Key.p)
-    assert palette.open
-    d.ctx.key_chars("parallel")
-    d.frames(2)
-    d.press(Key.enter)
-    assert not palette.open
-    assert d.state.camera.is_parallel
-    d.press(CTRL | SHIFT | Key.p)
-    d.ctx.key_chars("scene spheres")
-    d.frames(2)
-    d.press(Key.enter)
-    d.until(lambda: d.state.scene.name == "spheres")
-    # Without letters, what was done last stands first; the arrows choose.
-    d.press(CTRL | SHIFT | Key.p)
-    d.press(Key.down_arrow)
-    assert not d.state.camera.is_parallel  # the scene's own view
-    d.press(Key.enter)
-    assert d.state.camera.is_parallel
-    d.press(CTRL | SHIFT | Key.p)
-    d.ctx.key_chars("qqqqq")
-    d.press(Key.enter)
-    assert palette.open  # nothing of that name: nothing is done
-    d.press(Key.escape)
-    assert not palette.open
 
 
 def drive_the_sheet_fits_the_window_at_every_size_of_type(d):
