@@ -139,9 +139,9 @@ def test_no_picture_takes_another_ones_turn(tmp_path, monkeypatch):
     gate, write = threading.Event(), capture.atomic_write
     monkeypatch.setattr(capture, "atomic_write", lambda to: gate.wait(PATIENT_S) and write(to))
     captures = Captures(lambda: None, tmp_path)
-    names = [captures.default_path("") for _ in range(3)]
+    names = [captures.default_path() for _ in range(3)]
     for name in names:
-        captures.ask(None, name)
+        captures.ask(name)
         captures.after_drawing(TARGET)
     gate.set()
     told = []
@@ -152,7 +152,6 @@ def test_no_picture_takes_another_ones_turn(tmp_path, monkeypatch):
 
 
 def test_a_cut_has_a_pixel_at_least():
-    assert cut(PIXELS, None).shape == (5, 7, 3)
     assert cut(PIXELS, (-9, -9, 99, 99)).shape == (5, 7, 3)
     assert cut(PIXELS, (3, 3, 3, 3)).shape == (1, 1, 3)
     assert cut(PIXELS, (99, 99, 120, 120)).shape == (1, 1, 3)
