@@ -35,7 +35,7 @@ class Captures:
         return self._asked is not None or self._work.busy
 
     def ask(self, path: Path) -> None:
-        """Ask for a picture of the next frame."""
+        """Ask for a picture of the next frame, in a file."""
         self._asked = path
 
     def default_path(self) -> Path:

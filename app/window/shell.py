@@ -20,7 +20,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.session import Session, session_of
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
-from lucida.app.ui.messages import listing_box, loading_box, message_box
+from lucida.app.ui.messages import loading_box, message_box
 from lucida.app.ui.stage import Rect, Stage
 from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import Fonts
@@ -103,7 +103,7 @@ class Shell:
         toggle_full_screen()
 
     def picture(self) -> None:
-        """Save a picture of the window in the folder of pictures."""
+        """Save a picture of the window, in the folder of pictures."""
         try:
             self.captures.ask(self.captures.default_path())
         except LucidaError as error:
@@ -136,8 +136,6 @@ class Shell:
             self.files.message = ""
         elif failure := self._unanswered(window.renderers):
             self._answered = describe(failure)
-        elif self.exports.listing is not None:
-            self.exports.listing = None
         elif self.documents.shown:
             self.documents.shown = ""
         elif self.help:
@@ -172,13 +170,10 @@ class Shell:
         done = self.captures.poll()
         if done is not None:
             self.toasts.add(*done)
-        exported = self.exports.poll()
-        if exported is not None:
-            text, good = exported
-            if good:
-                self.toasts.add(text)
-            else:
-                self.files.message = text
+        said, message = self.exports.poll()
+        if said:
+            self.toasts.add(said)
+        self.files.message = message or self.files.message
 
     def draw_until_divided(self, window: Host) -> None:
         """Request frames until bars and views have their places: each takes effect a frame later,
@@ -209,7 +204,7 @@ class Shell:
         self._hide_cursor(typing or self.files.dialog.is_open)
 
     def _waiting(self) -> None:
-        """Draw the progress of what takes long, one thing at a time, and its result."""
+        """Draw the progress of what takes long, one thing at a time."""
         exports = self.exports
         if self.files.loading:
             if loading_box(f"Loading {self.files.loading}", self.files.loading_s):
@@ -218,8 +213,6 @@ class Shell:
             hello_imgui.request_refresh()
             if loading_box(f"Exporting {exports.name}", exports.time_s):
                 exports.cancel()
-        if exports.listing is not None and not listing_box(exports.listing):
-            exports.listing = None
 
     def _hide_cursor(self, asks: bool) -> None:
         """Hide the keyboard's cursor after the field that was typed into is gone.

@@ -114,7 +114,7 @@ def test_a_picture_is_saved_and_told(tmp_path):
     captures.after_drawing(TARGET)
     assert not captures.busy
     path = captures.default_path()
-    assert path.name.startswith("lucida ")
+    assert path.name.startswith("lucida 20")
     assert captures.default_path() != path  # which may not be written yet
     captures.ask(path)
     captures.after_drawing(TARGET)
