@@ -242,7 +242,7 @@ class Shell:
         if self._keeper is not None:
             session = self._session(window)
             if session is not None and not keeps_edits:
-                session = replace(session, edited=None)
+                session = replace(session, unsaved="")
             self._keeper.close(session)
 
     def _session(self, window: Host) -> Session | None:
@@ -250,8 +250,8 @@ class Shell:
         if self.files.awaits_first:
             return None
         state = window.present
-        arrangement = replace(self.stage.arrangement(), parts=self.proportion.parts())
-        return session_of(state, arrangement, window.view(LectureView).kept(state))
+        lecture = window.view(LectureView).kept(state)
+        return session_of(state, self.stage.arrangement(), lecture)
 
     def _messages(self, window: Host) -> None:
         """Draw one message at a time: questions first, then failures."""
