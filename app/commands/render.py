@@ -94,9 +94,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.app.cameras.films.frames import stored, with_z
+    from lucida.app.cameras.films.frames import with_z
     from lucida.renderer.compare.why_black import hits_nothing
     from lucida.renderer.images import check_image_path, write_image
+    from lucida.renderer.images.frame import stored
 
     if arguments.renderer != "ray":
         check_effects(arguments)
@@ -142,7 +143,8 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
 
     The frame has the requested channel, and id, which shows whether anything is hit.
     """
-    from lucida.app.cameras.films.frames import Drawing, Shot, stored
+    from lucida.app.cameras.films.frames import Drawing, Shot
+    from lucida.renderer.images.frame import stored
 
     channels = tuple(dict.fromkeys((stored(arguments.channel), "id")))
     with common.progress_bar(arguments.renderer) as progress:

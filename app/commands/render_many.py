@@ -10,7 +10,7 @@ from pathlib import Path
 
 from lucida.app.cameras.films.encoding import image_writer
 from lucida.app.cameras.films.film import Film
-from lucida.app.cameras.films.frames import Look, Shot, stored
+from lucida.app.cameras.films.frames import Look, Shot
 from lucida.app.cameras.options import with_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import say_notes, source_of
@@ -18,7 +18,7 @@ from lucida.app.commands.many import look_of, make_film
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras import PosedCamera, read_cameras
-from lucida.renderer.images.frame import LARGEST_PIXELS, check_size
+from lucida.renderer.images.frame import LARGEST_PIXELS, check_size, stored
 from lucida.renderer.scene import flatten
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.scene.precision import check_precision

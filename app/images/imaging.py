@@ -1,4 +1,4 @@
-"""The options of both images: channels, components, resolutions, magnifications.
+"""The options of both images: channels, resolutions, magnifications.
 
 Their names, and the changes of the state for menus and keys.
 """
@@ -19,6 +19,7 @@ CHANNELS: dict[Channel, tuple[str, str]] = {
     "depth": ("Depth", "the ray parameter t of the hit: the nearest is white"),
     "normal": ("Normal", "the surface's normal n, world space: (n + 1) / 2 as red, green, blue"),
     "id": ("Object", "which object is seen: a colour for each"),
+    "z": ("Distance z", "the hit's distance z along -w, in units of w: the nearest is white"),
 }
 _SIZE = re.compile(r"\s*(\d{1,6})\s*[x*,; \N{MULTIPLICATION SIGN}]\s*(\d{1,6})\s*", re.IGNORECASE)
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lucida.app.state.options.shared import ImageOptions
 from lucida.renderer.images.display import LUMINANCE, from_srgb, picture, to_srgb8
-from lucida.renderer.images.frame import Frame
+from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.images.shared_numbers import FARTHEST_GRAY
 
 Bytes = NDArray[np.uint8]
@@ -24,7 +24,7 @@ DARK = 0.179  # of luminance: there black and white are as easy to read. Source:
 
 def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes:
     """Return a channel's values (see frame.py) as displayed: uint8 (height, width, 3)."""
-    if options.channel == "depth":
+    if stored(options.channel) == "depth":
         return np.repeat(_gray(values, depths)[..., None], 3, axis=2)
     if options.channel == "color":
         return color_bytes(values, options)
@@ -41,7 +41,7 @@ def value_lines(values: NDArray, options: ImageOptions) -> list[list[str]]:
     """Return the text in each pixel, by rows and columns, with its lines separated by newlines and
     all of one width.
     """
-    channel = options.channel
+    channel = stored(options.channel)
     if channel == "depth":
         return [[_depth(t) for t in row] for row in values.tolist()]
     if channel == "id":

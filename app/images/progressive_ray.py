@@ -56,6 +56,9 @@ class RayImage:
         """Return a channel for display."""
         if channel == "color" and self.mean is not None:
             return self.mean
+        if channel == "z":
+            z = self.request.camera.z_from_t(self.frame.channel("depth"), self.frame.size)
+            return z.astype(np.float32)
         return self.frame.channel(channel)
 
 

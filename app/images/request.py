@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import ENLARGEMENT
@@ -17,8 +17,9 @@ class ImageRequest:
     """Everything that an image depends on, for both renderers.
 
     size: (width, height) of the full image. shadows, mirrors: the ray image then shows what the
-    raster image cannot. samples: per pixel, of the colour in the full ray image. enlargement: of
-    the faces that a lens's raster image looks up.
+    raster image cannot. channel: the visible one, of those that each image has. samples: per pixel,
+    of the colour in the full ray image. enlargement: of the faces that a lens's raster image looks
+    up.
     """
 
     scene: Scene
@@ -26,6 +27,7 @@ class ImageRequest:
     size: tuple[int, int]
     shadows: bool = False
     mirrors: bool = False
+    channel: str = field(default="color", compare=False)
     samples: int = 1
     enlargement: int = ENLARGEMENT
 

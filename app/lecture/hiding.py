@@ -17,7 +17,7 @@ from lucida.app.lecture.text import escaped
 from lucida.app.state.kept_lecture import Judgement
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.editing.changing import Item, fields_of, set_field
-from lucida.renderer.editing.moving import bounds_of, transform
+from lucida.renderer.editing.moving import bounds_of, shift
 from lucida.renderer.editing.objects import hide
 from lucida.renderer.editing.outline import OutlineRow, outline
 from lucida.renderer.files.reading import suggestion
@@ -124,9 +124,7 @@ class HideExercise:
         item = _item(scene, self.moved)
         if "rotate_deg" in (was := _fields(self.scene, self.item)):
             scene = set_field(scene, [item], "rotate_deg", was["rotate_deg"])
-        shift = np.eye(4)
-        shift[:3, 3] = np.asarray(self.answer) - _middle(scene, item)
-        return transform(scene, [item], shift)
+        return shift(scene, [item], np.asarray(self.answer) - _middle(scene, item))
 
     def solution(self) -> str:
         """Return a place for the object, as a lecture's text."""

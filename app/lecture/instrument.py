@@ -8,9 +8,3 @@ from lucida.app.lecture.view import LectureView
 
 class LectureInstrument(LectureView):
     actions = LECTURE
-    synonyms = {
-        "Next step": "slide",
-        "Previous step": "slide previous",
-        "Play again": "animation movement repeat",
-        "Lecture": "slides lesson tutorial course",
-    }

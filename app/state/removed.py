@@ -36,6 +36,7 @@ class Replaced:
     was_default: bool = False
 
 
+TURNED = "the inspector's fields turn and scale objects"
 QUIZ = "there is no quiz of wrong lines any more; a lecture asks by exercises"
 
 # Options by path, such as "stepper.form"; "stepper" stands for all of the stepper's options.
@@ -106,6 +107,8 @@ REPLACED: dict[tuple[str, Any], Replaced] = {
     ("laboratory.page", "heights"): Replaced("function", "an image's light is read at a point"),
     ("laboratory.page", "bitmaps"): Replaced("kinds", "a bitmap is made by a threshold"),
     ("laboratory.page", "vector"): Replaced("shapes", "a drawing is shown as pixels and as shapes"),
+    ("objects.handle", "turn"): Replaced("move", TURNED),
+    ("objects.handle", "scale"): Replaced("move", TURNED),
     ("costs.against", "frames"): Replaced("triangles", "no time is measured", was_default=True),
 }
 

@@ -1,4 +1,4 @@
-"""Actions: what a menu, a key or the command palette does."""
+"""Actions: what a menu or a key does."""
 
 from __future__ import annotations
 

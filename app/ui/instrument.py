@@ -6,7 +6,7 @@ view.py, its actions in actions.py, and both joined in instrument.py.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from typing import ClassVar, TypeVar
 
 import moderngl
@@ -21,7 +21,7 @@ AnInstrument = TypeVar("AnInstrument", bound="Instrument")
 
 
 class Instrument:
-    """A view in a dockable window, with what menus, keys and the palette do with it.
+    """A view in a dockable window, with what menus and keys do with it.
 
     Methods are called on the window's thread, with its OpenGL context current.
 
@@ -30,10 +30,7 @@ class Instrument:
     padding, flags: of the ImGui window; None and 0 for the style's.
     space: where it is docked in layouts that do not place it and have that space; "": as a tab of
     the main view.
-    actions: for menus, keys and the palette, in the order of the menus.
-    synonyms: other names that people use, by the names of actions, pages and views.
-    pages: what the palette finds in the view, by name: the options that show it, as in
-    {"laboratory": {"page": "array"}}.
+    actions: for menus and keys, in the order of the menus.
     mouse, keyboard: further rows for the shortcut sheet.
     heading: of its actions' keys on the sheet, if they work in its view only; if empty, they are
     listed with the others of their menus.
@@ -45,8 +42,6 @@ class Instrument:
     flags: ClassVar[int] = 0
     space: ClassVar[str] = ""
     actions: ClassVar[tuple[Action, ...]] = ()
-    synonyms: ClassVar[Mapping[str, str]] = {}
-    pages: ClassVar[Mapping[str, Mapping[str, Mapping[str, object]]]] = {}
     mouse: ClassVar[tuple[tuple[str, str], ...]] = ()
     keyboard: ClassVar[tuple[tuple[str, str], ...]] = ()
     heading: ClassVar[str] = ""

@@ -1,4 +1,4 @@
-"""Boxes over the window: errors that must be answered, lines to read, progress; and a view's error.
+"""Boxes over the window: errors that must be answered, progress; and a view's error.
 
 overlay() draws the boxes of other modules too.
 """
@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
@@ -92,34 +91,6 @@ def progress(time_s: float, button_em: float) -> bool:
     imgui.progress_bar(-0.5 * time_s, (-button_em * imgui.get_font_size(), 0), f"{time_s:.0f} s")
     imgui.same_line()
     return bool(imgui.button("Cancel", (-1, 0)))
-
-
-@dataclass(frozen=True)
-class TextListing:
-    """Lines to read, with a title."""
-
-    title: str
-    lines: tuple[str, ...]
-
-
-def listing_box(listing: TextListing) -> bool:
-    """Draw the lines in the middle of the window, to scroll and copy. Return True while the box is
-    open.
-    """
-    viewport, width = imgui.get_main_viewport(), box_width(52, 0.86)
-    with overlay("##listing", viewport.get_center(), (0.5, 0.5), width, theme.LINE):
-        wrapped(listing.title)
-        imgui.set_next_window_size_constraints((0, 0), (width, 0.5 * viewport.work_size.y))
-        child = imgui.ChildFlags_
-        imgui.begin_child("##lines", (0, 0), child.borders | child.auto_resize_y)
-        for text in listing.lines:
-            imgui.bullet()
-            wrapped(text)
-        imgui.end_child()
-        if imgui.button("Copy"):
-            imgui.set_clipboard_text("\n".join((listing.title, *listing.lines)))
-        imgui.same_line()
-        return not imgui.button("Close")
 
 
 def failure_note(title: str, error: Exception) -> bool:

@@ -59,9 +59,6 @@ def _bookmark(number: int, stores: bool) -> Action:
     )
 
 
-PICTURES = "File/Picture"
-
-
 FILE = (
     Action("File", "Open...", lambda w: w.files.open_dialog(), "Ctrl+O"),
     Action("File", "Open photograph...", lambda w: w.files.open_photograph_dialog()),
@@ -94,13 +91,7 @@ FILE = (
     ),
     Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E"),
     Action("File", "Export figure...", ask_figure, "Ctrl+Shift+E"),
-    Action(PICTURES, "Save a picture of the window", lambda w: w.shell.picture(), "F12"),
-    Action(
-        PICTURES,
-        "Save a picture of the current view",
-        lambda w: w.shell.picture(view=True),
-        "Shift+F12",
-    ),
+    Action("File", "Save a picture of the window", lambda w: w.shell.picture(), "F12"),
 )
 
 QUIT = (Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", separated=True),)
@@ -180,12 +171,6 @@ EFFECTS = (
 HELP = (
     Action("Help", GETTING_STARTED, lambda w: w.shell.open_document(GETTING_STARTED)),
     Action("Help", "Documentation", lambda w: w.shell.open_document(FIRST)),
-    Action(
-        "Help",
-        "Find a command",
-        lambda w: w.shell.toggle_palette(),
-        "Ctrl+Shift+P",
-    ),
     Action(
         "Help",
         "Mouse and keys",

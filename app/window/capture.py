@@ -1,11 +1,10 @@
-"""Pictures of the window or of one view, encoded and saved on a thread."""
+"""Pictures of the window, encoded and saved on a thread."""
 
 from __future__ import annotations
 
 import datetime
 import os
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -18,18 +17,6 @@ from lucida.renderer.system.errors import LucidaError
 Rect = tuple[float, float, float, float]  # left, top, right, bottom
 
 
-@dataclass(frozen=True)
-class CaptureRequest:
-    """A request for a picture.
-
-    rect: the part to cut out, in framebuffer pixels; None for the whole window.
-    path: the file.
-    """
-
-    rect: Rect | None
-    path: Path
-
-
 class Captures:
     """Takes pictures while the window is open.
 
@@ -39,7 +26,7 @@ class Captures:
 
     def __init__(self, wake: Callable[[], None], folder: Path | None = None) -> None:
         self._work: Background[str] = Background("lucida-capture", wake, every=True)
-        self._asked: CaptureRequest | None = None
+        self._asked: Path | None = None
         self._promised: set[Path] = set()  # to pictures that may not be written yet
         self.folder = folder
 
@@ -47,18 +34,15 @@ class Captures:
     def busy(self) -> bool:
         return self._asked is not None or self._work.busy
 
-    def ask(self, rect: Rect | None, path: Path) -> None:
-        """Ask for a picture of the next frame."""
-        self._asked = CaptureRequest(rect, path)
+    def ask(self, path: Path) -> None:
+        """Ask for a picture of the next frame, in a file."""
+        self._asked = path
 
-    def default_path(self, what: str) -> Path:
-        """Return a free name for a picture: lucida raster 2026-01-31 10.15.59.png. Raises
-        LucidaError.
-        """
+    def default_path(self) -> Path:
+        """Return a free name for a picture: lucida 2026-01-31 10.15.59.png. Raises LucidaError."""
         folder = self.folder or pictures_folder()
         now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
-        name = f"lucida {what} {now}".replace("  ", " ")
-        path = free_path(folder / f"{name}.png", " ", self._promised)
+        path = free_path(folder / f"lucida {now}.png", " ", self._promised)
         self._promised.add(path)
         return path
 
@@ -66,9 +50,9 @@ class Captures:
         """Take the requested picture. Call when the frame is drawn, before the swap."""
         if self._asked is None:
             return
-        asked, self._asked = self._asked, None
+        path, self._asked = self._asked, None
         pixels = target.read()
-        self._work.submit(lambda: _finish(pixels, asked))
+        self._work.submit(lambda: _finish(pixels, path))
 
     def poll(self) -> tuple[str, bool] | None:
         """Return the result of the last picture: a message, and True if it was taken."""
@@ -107,10 +91,8 @@ def pictures_folder() -> Path:
         raise LucidaError("pictures", f"cannot be kept: {error}", "save to a named file") from None
 
 
-def cut(pixels: np.ndarray, rect: Rect | None) -> np.ndarray:
+def cut(pixels: np.ndarray, rect: Rect) -> np.ndarray:
     """Cut out a part of a picture, uint8 (height, width, 3), of at least one pixel."""
-    if rect is None:
-        return pixels
     height, width = pixels.shape[:2]
     left, right = (min(max(round(x), 0), width) for x in (rect[0], rect[2]))
     top, bottom = (min(max(round(y), 0), height) for y in (rect[1], rect[3]))
@@ -118,11 +100,10 @@ def cut(pixels: np.ndarray, rect: Rect | None) -> np.ndarray:
     return pixels[top : max(bottom, top + 1), left : max(right, left + 1)]
 
 
-def _finish(pixels: np.ndarray, asked: CaptureRequest) -> str:
+def _finish(pixels: np.ndarray, path: Path) -> str:
     """Encode the picture and put it in its place. Return a message."""
     from PIL import Image
 
-    picture = np.ascontiguousarray(cut(pixels, asked.rect))
-    with atomic_write(asked.path) as file:
-        Image.fromarray(picture).save(file, format="PNG")
-    return f"Saved {asked.path} ({picture.shape[1]} x {picture.shape[0]})."
+    with atomic_write(path) as file:
+        Image.fromarray(pixels).save(file, format="PNG")
+    return f"Saved {path} ({pixels.shape[1]} x {pixels.shape[0]})."

@@ -35,7 +35,7 @@ TILES = {
     "presentation.",
 }
 MORE = (
-    "F1 shows all keys, Ctrl+Shift+P finds any command. Drop a model, a photograph, a camera file "
+    "F1 shows all keys. Drop a model, a photograph, a camera file "
     "or your Python code on the window."
 )
 

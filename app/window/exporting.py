@@ -1,7 +1,7 @@
 """Exports of a scene and its camera for other renderers, or as a page: on a thread, with progress
 and cancel.
 
-Lists what could not be exported.
+Reports what could not be exported.
 """
 
 from __future__ import annotations
@@ -10,7 +10,6 @@ import time
 from pathlib import Path
 
 from lucida.app.ui.background import Background
-from lucida.app.ui.messages import TextListing
 from lucida.app.web import ENDINGS as PAGES
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -24,14 +23,13 @@ NOT_CARRIED = "Not as it is there:"
 
 
 class Exports:
-    """listing: what could not be exported, while it is shown."""
+    """The exports of one window, one at a time."""
 
     def __init__(self) -> None:
         self._work: Background[Lines] = Background("lucida-export")
         self._cancellation = Cancellation()
         self._path = Path()
         self._began_s = 0.0
-        self.listing: TextListing | None = None
 
     @property
     def busy(self) -> bool:
@@ -54,7 +52,7 @@ class Exports:
         """
         self._cancellation = Cancellation()
         check = self._cancellation.check
-        self._path, self._began_s, self.listing = Path(path), time.monotonic(), None
+        self._path, self._began_s = Path(path), time.monotonic()
 
         def write() -> Lines:
             with cancelled_by(check):
@@ -71,19 +69,19 @@ class Exports:
         """End the writing between two of its parts, and remove the unfinished file."""
         self._cancellation.cancel()
 
-    def poll(self) -> tuple[str, bool] | None:
-        """Return the message since the last call, and whether it is good news."""
+    def poll(self) -> tuple[str, str]:
+        """Return what was done since the last call, and what the user must read; or ""."""
         outcome = self._work.poll()
         if outcome is None:
-            return None
+            return "", ""
         name = one_line(self._path.name)
         if isinstance(outcome.error, CancelledError):
-            return f"Exporting {name} was cancelled: nothing was written.", True
+            return f"Exporting {name} was cancelled: nothing was written.", ""
         if outcome.error is not None:
-            return describe(outcome.error), False
-        if outcome.value:
-            self.listing = TextListing(f"Exported {name}. {NOT_CARRIED}", outcome.value)
-        return one_line(f"Exported the scene and its camera as {self._path}."), True
+            return "", describe(outcome.error)
+        title, notes = f"Exported {name}. {NOT_CARRIED}", outcome.value or ()
+        exported = one_line(f"Exported the scene and its camera as {self._path}.")
+        return exported, "\n".join((title, *notes)) if notes else ""
 
     def close(self) -> None:
         self.cancel()

@@ -1,4 +1,4 @@
-"""The parts around the views: palette, sheet, dialogs, toasts, pictures, the session.
+"""The parts around the views: sheet, dialogs, toasts, pictures, the session.
 
 It decides what Escape means.
 """
@@ -20,19 +20,17 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.session import Session, session_of
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
-from lucida.app.ui.messages import listing_box, loading_box, message_box
-from lucida.app.ui.stage import Stage
+from lucida.app.ui.messages import loading_box, message_box
+from lucida.app.ui.stage import Rect, Stage
 from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
 from lucida.app.web import ENDINGS as PAGES
-from lucida.app.window.capture import Captures, Rect
+from lucida.app.window.capture import Captures
 from lucida.app.window.documents import Documents
 from lucida.app.window.exporting import Exports
 from lucida.app.window.files import Files
 from lucida.app.window.hints import Hints
-from lucida.app.window.palette import CommandPalette
-from lucida.app.window.palette_entries import entries
 from lucida.app.window.platform import toggle_full_screen
 from lucida.app.window.proportion import Proportion
 from lucida.app.window.session_store import Keeper
@@ -62,7 +60,6 @@ class Shell:
     ) -> None:
         self.stage: Stage = Stage(views)
         self.proportion = Proportion()
-        self.palette: CommandPalette = CommandPalette()
         self.toasts = Toasts()
         self.captures = Captures(wake)
         self.exports = Exports()
@@ -96,9 +93,6 @@ class Shell:
     def focus_next(self, step: int) -> None:
         self.stage.focus_next(step)
 
-    def toggle_palette(self) -> None:
-        self.palette.toggle()
-
     def toggle_help(self) -> None:
         self.help = not self.help
 
@@ -108,11 +102,10 @@ class Shell:
     def toggle_full_screen(self) -> None:
         toggle_full_screen()
 
-    def picture(self, view: bool = False) -> None:
-        """Save a picture of the window, or of the current view, in the folder of pictures."""
+    def picture(self) -> None:
+        """Save a picture of the window, in the folder of pictures."""
         try:
-            what = self._view_in_use() if view else ""
-            self.captures.ask(self._rect(what), self.captures.default_path(what.lower()))
+            self.captures.ask(self.captures.default_path())
         except LucidaError as error:
             self.toasts.add(describe(error), good=False)
 
@@ -135,9 +128,7 @@ class Shell:
         """Handle Escape: close what lies on top, end what takes long, make small what is large,
         leave presentation, clear the selection or the mark; one of these at a time.
         """
-        if self.palette.open:
-            self.palette.open = False
-        elif self.files.dialog.is_open:
+        if self.files.dialog.is_open:
             self.files.dialog.cancel()
         elif self.files.question is not None:
             self.files.question = None
@@ -145,8 +136,6 @@ class Shell:
             self.files.message = ""
         elif failure := self._unanswered(window.renderers):
             self._answered = describe(failure)
-        elif self.exports.listing is not None:
-            self.exports.listing = None
         elif self.documents.shown:
             self.documents.shown = ""
         elif self.help:
@@ -181,13 +170,10 @@ class Shell:
         done = self.captures.poll()
         if done is not None:
             self.toasts.add(*done)
-        exported = self.exports.poll()
-        if exported is not None:
-            text, good = exported
-            if good:
-                self.toasts.add(text)
-            else:
-                self.files.message = text
+        said, message = self.exports.poll()
+        if said:
+            self.toasts.add(said)
+        self.files.message = message or self.files.message
 
     def draw_until_divided(self, window: Host) -> None:
         """Request frames until bars and views have their places: each takes effect a frame later,
@@ -214,12 +200,11 @@ class Shell:
         self.files.dialog.draw()
         self._waiting()
         self._messages(window)
-        self.palette.draw(lambda: entries(window, self.stage))
         self.toasts.draw()
-        self._hide_cursor(typing or self.palette.open or self.files.dialog.is_open)
+        self._hide_cursor(typing or self.files.dialog.is_open)
 
     def _waiting(self) -> None:
-        """Draw the progress of what takes long, one thing at a time, and its result."""
+        """Draw the progress of what takes long, one thing at a time."""
         exports = self.exports
         if self.files.loading:
             if loading_box(f"Loading {self.files.loading}", self.files.loading_s):
@@ -228,8 +213,6 @@ class Shell:
             hello_imgui.request_refresh()
             if loading_box(f"Exporting {exports.name}", exports.time_s):
                 exports.cancel()
-        if exports.listing is not None and not listing_box(exports.listing):
-            exports.listing = None
 
     def _hide_cursor(self, asks: bool) -> None:
         """Hide the keyboard's cursor after the field that was typed into is gone.
@@ -259,7 +242,7 @@ class Shell:
         if self._keeper is not None:
             session = self._session(window)
             if session is not None and not keeps_edits:
-                session = replace(session, edited=None)
+                session = replace(session, unsaved="")
             self._keeper.close(session)
 
     def _session(self, window: Host) -> Session | None:
@@ -267,8 +250,8 @@ class Shell:
         if self.files.awaits_first:
             return None
         state = window.present
-        arrangement = replace(self.stage.arrangement(), parts=self.proportion.parts())
-        return session_of(state, arrangement, window.view(LectureView).kept(state))
+        lecture = window.view(LectureView).kept(state)
+        return session_of(state, self.stage.arrangement(), lecture)
 
     def _messages(self, window: Host) -> None:
         """Draw one message at a time: questions first, then failures."""
@@ -324,19 +307,3 @@ class Shell:
             keeper.mark()
         if keeper.due() and (session := self._session(window)) is not None:
             keeper.save(session)
-
-    def _view_in_use(self) -> str:
-        stage = self.stage
-        if stage.maximised:
-            return stage.maximised
-        if not stage.rects:
-            raise LucidaError("picture", "no view is shown", "show one in the menu Instruments")
-        return stage.focused if stage.focused in stage.rects else next(iter(stage.rects))
-
-    def _rect(self, view: str) -> Rect | None:
-        """Return a view's content rectangle, in framebuffer pixels; None for the whole window."""
-        if not view:
-            return None
-        scale = imgui.get_io().display_framebuffer_scale.x
-        left, top, right, bottom = (edge * scale for edge in self.stage.rects[view])
-        return left, top, right, bottom

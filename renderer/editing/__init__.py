@@ -3,7 +3,7 @@
     changing    a single change: items (objects and lights by their keys), fields, rebuilding
     outline     the contents of a scene, as a list
     objects     add, delete, duplicate, rename, hide
-    moving      conversion between matrices and the file's numbers, for handles
+    moving      objects and lights moved in the world, and their bounds
     materials   change the objects' materials
     documents   saved and unsaved: the file that a scene belongs to
 
@@ -28,8 +28,8 @@ from lucida.renderer.editing.documents import (
     save,
     suggested_file,
 )
-from lucida.renderer.editing.materials import set_material, set_single_sided
-from lucida.renderer.editing.moving import bounds_of, matrix_of, transform
+from lucida.renderer.editing.materials import set_material
+from lucida.renderer.editing.moving import bounds_of, shift
 from lucida.renderer.editing.objects import (
     LIGHTS,
     SHAPES,
@@ -60,7 +60,6 @@ __all__ = [
     "ids_of",
     "is_unsaved",
     "item_of",
-    "matrix_of",
     "model_table",
     "new_table",
     "outline",
@@ -70,8 +69,7 @@ __all__ = [
     "set_field",
     "set_material",
     "set_scene_field",
-    "set_single_sided",
+    "shift",
     "suggested_file",
     "table_of",
-    "transform",
 ]

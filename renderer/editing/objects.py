@@ -111,8 +111,7 @@ def duplicate(
 
     Copies share the arrays, but have names of their own.
     """
-    from lucida.renderer.editing.moving import transform
-    from lucida.renderer.scene.shapes import placement
+    from lucida.renderer.editing.moving import shift
 
     scene = as_tables(scene)
     tables, taken = [], _names(scene)
@@ -123,7 +122,7 @@ def duplicate(
             taken.add(table["name"])
         tables.append(table)
     found, copies = add(scene, *tables)
-    return (transform(found, copies, placement(by)) if any(by) else found), copies
+    return (shift(found, copies, by) if any(by) else found), copies
 
 
 def rename(scene: Scene, item: Item, name: str) -> Scene:

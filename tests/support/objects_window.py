@@ -12,7 +12,7 @@ from outside_window import place
 from window_driver import IMAGES, Driver, Key
 
 from lucida.app.instruments.objects.choosing import chosen, rows_of
-from lucida.app.instruments.objects.handles import frame_of, length_px
+from lucida.app.instruments.objects.handles import length_px, middle_of
 from lucida.app.instruments.outside.view import OUTSIDE
 from lucida.renderer.editing.changing import ids_of
 from lucida.renderer.scene.model import Sphere
@@ -118,8 +118,7 @@ def arrow(d: Driver, view: str, name: str, axis: int) -> tuple[np.ndarray, np.nd
     """The middle of the arrow of an axis on the screen, and its direction there."""
     window = d.window
     focus = window.focus
-    frame = frame_of(window.state.scene, (item(d, name),), focus.center)
-    spot = frame[:3, 3]
+    spot = middle_of(window.state.scene, (item(d, name),))
     step = np.eye(3)[axis] * 0.05 * focus.reach
 
     def on_screen(point):

@@ -10,7 +10,6 @@ import numpy as np
 from lucida.renderer.editing import changing, materials, moving, objects
 from lucida.renderer.editing.outline import Item, outline
 from lucida.renderer.scene import Scene, flatten
-from lucida.renderer.scene.shapes import placement
 from lucida.renderer.system.errors import LucidaError
 
 Random = np.random.Generator
@@ -170,23 +169,8 @@ def _set_place(rng: Random, scene: Scene) -> Scene:
     return changing.set_field(scene, items[:1], field, value)
 
 
-def _transform(rng: Random, scene: Scene) -> Scene:
-    turn = rng.choice([0, 0, 90, 33.3], 3) * rng.choice([-1, 1], 3)
-    scale = float(rng.choice([1, 1, 0.7, -1, 1.4]))
-    matrix = placement(rng.normal(size=3) * 0.4, turn, scale)
-    return moving.transform(scene, _items(rng, scene), matrix)
-
-
-def stretched(scene: Scene, item: Item, matrix: Any) -> Scene:
-    """The scene with an item transformed along its own axes, as handles do it."""
-    now = moving.matrix_of(scene, item)
-    return moving.transform(scene, [item], now @ matrix @ np.linalg.inv(now))
-
-
-def _stretch(rng: Random, scene: Scene) -> Scene:
-    item = _items(rng, scene)[0]
-    own = placement(scale=tuple(rng.choice([0.6, 1.0, 1.5, -1.0], 3)))
-    return stretched(scene, item, own)
+def _shift(rng: Random, scene: Scene) -> Scene:
+    return moving.shift(scene, _items(rng, scene), rng.normal(size=3) * 0.4)
 
 
 def _add(rng: Random, scene: Scene) -> Scene:
@@ -220,8 +204,7 @@ def _set_scene(rng: Random, scene: Scene) -> Scene:
 EDITS: dict[str, Callable[[Random, Scene], Scene]] = {
     "shape": _set_shape,
     "place": _set_place,
-    "transform": _transform,
-    "stretch": _stretch,
+    "shift": _shift,
     "add": _add,
     "delete": lambda rng, scene: objects.delete(scene, _items(rng, scene)),
     "duplicate": lambda rng, s: objects.duplicate(s, _items(rng, s), rng.normal(size=3))[0],

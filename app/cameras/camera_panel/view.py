@@ -16,6 +16,7 @@ from lucida.app.cameras.camera_panel.sections import Sections
 from lucida.app.cameras.editing import Draft
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
+from lucida.app.ui.layout import INSTRUMENTS
 
 CAMERA = "Camera"
 
@@ -29,27 +30,8 @@ class CameraView(Instrument):
 
     name = CAMERA
     title = "Camera"
+    space = INSTRUMENTS
     actions = (*EDIT, *ACTIONS)
-    synonyms = {
-        "Copy camera": "matrix clipboard",
-        "Paste camera": "matrix clipboard",
-        "Parallel projection": "ortho orthographic orthogonal perspective",
-        "Keep orthonormal": "orthogonal basis skew free",
-        "Fit to the image's aspect ratio": "stretch distort viewport",
-        "Scene's view": "home reset camera default",
-        "Canonical camera": "reset default identity",
-        "Aim at the object under the mouse": "focus center centre target look",
-        "Frame the scene": "all extents fit view",
-        "Barrel": "lens distortion brown",
-        "Pincushion": "lens distortion brown",
-        "Phone": "lens distortion brown",
-        "Action cam": "lens action camera gopro fisheye wide angle distortion",
-        "190 degrees": "lens fisheye circular wide angle",
-        "360 degrees": "lens panorama equirectangular spherical",
-        "No lens": "pinhole undistort",
-        "Animate camera changes": "animation reduced motion transition",
-        "Camera": "fov field of view eye basis viewport distance near far clip dolly zoom",
-    }
 
     def __init__(self, views: Sequence[Instrument] = ()) -> None:
         self.draft: Draft | None = None

@@ -15,7 +15,7 @@ import numpy as np
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images import encode_image
-from lucida.renderer.images.frame import Frame
+from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.scene.model import Scene
 
 
@@ -88,11 +88,6 @@ class Drawing:
             camera = camera.cropped(shot.rows, size)
             size = size[0], shot.rows[1] - shot.rows[0]
         return self._rasterizer.render(camera, size, channels, samples, progress)
-
-
-def stored(channel: str) -> str:
-    """Return the frame's channel that holds a channel of a file: z is in the depth's place."""
-    return "depth" if channel == "z" else channel
 
 
 def with_z(frame: Frame, camera: Camera) -> Frame:

@@ -87,25 +87,6 @@ class RasterView(PairView):
     title = "Raster  object order"
     actions = (*PHOTOGRAPH, *IMAGE)
     mouse = MOUSE
-    synonyms = {
-        "Magnify": "zoom in enlarge",
-        "Reduce": "zoom out",
-        "Fit": "zoom",
-        "Pixel grid and values": "raster lines numbers",
-        "Brighter": "exposure ev",
-        "Darker": "exposure ev",
-        "Exposure 0": "reset ev brightness",
-        "Linear light (no sRGB curve)": "gamma transfer",
-        "Straight lines": "lens distortion grid bend curve",
-        "Clear mark": "deselect unmark pixel",
-        "Custom size...": "resolution width height",
-        "Pixels from 1 (lecture)": "count indices index one-based",
-        "Pixels from 0 (arrays)": "count indices index zero-based",
-        "Raster object order": "opengl rasterizer rasterization gpu",
-        "Ray image order": "tracer tracing raytracer cpu",
-        "Photograph on the images": "overlay background hide show toggle",
-        "Close the photograph": "remove background overlay",
-    }
     is_ray = False
 
     def __init__(self, views: Sequence[Instrument]) -> None:

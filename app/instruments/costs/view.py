@@ -21,8 +21,6 @@ COSTS_VIEW = "Costs"
 class CostsView(Instrument):
     name = COSTS_VIEW
     title = "Costs"
-    pages = {f"Costs against {unit}": {"costs": {"against": unit}} for unit in COSTS}
-    synonyms = {"Costs": "performance complexity time plot"}
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         if implot.get_current_context() is None:

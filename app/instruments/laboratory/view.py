@@ -42,25 +42,6 @@ KEY_STEP = 0.02  # of the image's width and height
 class LaboratoryView(Instrument):
     name = LABORATORY
     title = "Image laboratory"
-    pages = {
-        f"Image laboratory: {kind.title}": {"laboratory": {"page": page}}
-        for page, kind in PAGES.items()
-    }
-    synonyms = {
-        "Image laboratory": "representations storage formats",
-        "Image laboratory: Function": "spectrum radiant energy light position",
-        "Image laboratory: Pixels and shapes": "raster vector svg zoom",
-        "Image laboratory: Projectors": "light adds additive mixing discs red green blue",
-        "Image laboratory: Displays": "light screen phase cycle tube dlp lcd led oled subpixel",
-        "Image laboratory: Raster": "resolution pixels count",
-        "Image laboratory: Kinds": "bitmap grayscale colour float bits",
-        "Image laboratory: Exposure": "float clipped high dynamic range hdr",
-        "Image laboratory: Storage": "bytes megapixel size",
-        "Image laboratory: Array": "memory row-major column-major canvas bytes numpy julia",
-        "Image laboratory: How images are made": "pencil brush eye camera",
-        "Image laboratory: From 3D to 2D": "conundrum dimension projection",
-        "Image laboratory: From pixel to (u, v)": "ruler half pixel",
-    }
 
     def __init__(self, views: Sequence[Instrument] = ()) -> None:
         self._uploads: Uploads | None = None

@@ -45,7 +45,6 @@ class MistakesView(Instrument):
 
     name = MISTAKES
     title = "Mistakes"
-    synonyms = {"Mistakes": "wrong lines errors exercise what if students sign offset"}
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 from lucida.app.instruments.objects import editing
 from lucida.app.instruments.objects.choosing import chosen, everything, walked
@@ -13,14 +12,12 @@ from lucida.app.ui.host import Host
 from lucida.renderer.editing import objects
 from lucida.renderer.system.errors import LucidaError
 
-MENU, HANDLES = "Scene", "Scene/Handles"
+MENU = "Scene"
 
 
-def _toggle(
-    menu: str, name: str, field: str, on: object, off: object, keys: str = "", **more: Any
-) -> Action:
+def _toggle(name: str, field: str, on: object, off: object, keys: str) -> Action:
     """Return the action that switches an option of objects between two values."""
-    return choosing(menu, name, f"objects.{field}", on, keys, off, **more)
+    return choosing(MENU, name, f"objects.{field}", on, keys, off)
 
 
 def edit(window: Host, change: Callable[[AppState], AppState]) -> None:
@@ -82,8 +79,6 @@ SCENE = (
 )
 
 CHOOSING = (
-    _toggle(MENU, "Select on click", "selects", True, False, "V"),
-    _toggle(HANDLES, "Objects: move", "handle", "move", "none", "Shift+G"),
-    _toggle(HANDLES, "Objects: turn", "handle", "turn", "none", "Shift+T"),
-    _toggle(HANDLES, "Objects: scale", "handle", "scale", "none", "Shift+L"),
+    _toggle("Select on click", "selects", True, False, "V"),
+    _toggle("Handles to move", "handle", "move", "none", "Shift+G"),
 )

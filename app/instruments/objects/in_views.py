@@ -86,11 +86,8 @@ class InViews:
         draw.pop_clip_rect()
         if shown.name == OUTSIDE:
             self._draw_lights(host, shown)
-        free = unlocked(state)
-        wanted, focus = state.options.objects.handle, host.focus
-        scene = self.handles.draw(
-            shown, state.scene, free, wanted, focus.center, focus.reach, host.fonts
-        )
+        items = unlocked(state) if state.options.objects.handle == "move" else ()
+        scene = self.handles.draw(shown, state.scene, items, host.focus.reach, host.fonts)
         if scene is not state.scene:
             host.apply(replace(host.state, scene=scene), self.handles.gesture)
         if self.handles.dragging:

@@ -26,16 +26,6 @@ class ObjectsView(Instrument):
     title = OBJECTS
     actions = (*SCENE, *CHOOSING)
     mouse = (("double-click an object", "select it; V: by a click; Shift: one more"),)
-    synonyms = {
-        "Select on click": "select pick tool",
-        "Objects: move": "gizmo translate",
-        "Objects: turn": "gizmo rotate",
-        "Objects: scale": "gizmo size",
-        "Objects": "outliner tree hierarchy layers",
-        "Inspector": "properties material transform light",
-        "Delete": "remove",
-        "Duplicate": "copy clone",
-    }
     space = layout.CAMERA_SPACE
 
     def __init__(self, views: Sequence[Instrument]) -> None:

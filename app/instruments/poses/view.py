@@ -60,9 +60,6 @@ class PosesView(Instrument):
     name = POSES
     title = "Poses"
     keyboard = (("arrows in Poses", "another camera; Home, End"),)
-    synonyms = {
-        "Poses": "cameras colmap nerf transforms.json reconstruction photographs data set frusta",
-    }
     space = layout.INSTRUMENTS
 
     def __init__(self, views: Sequence[Instrument]) -> None:

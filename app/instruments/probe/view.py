@@ -45,9 +45,6 @@ class ProbeView(Instrument):
     name = PROBE
     title = "Probe"
     actions = PINNING
-    synonyms = {
-        "Probe": "ray formula intersection pixel",
-    }
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)

@@ -52,7 +52,6 @@ class StepperView(Instrument):
     title = "Loop stepper"
     actions = tuple(map(_stepping, panel.STEPS))
     heading = "Loop stepper, once it is clicked"
-    synonyms = {"Loop stepper": "algorithm code debug"}
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)

@@ -9,7 +9,7 @@ from lucida.app.state.bounds import AtMost, OptionPart, Range
 
 MOST_CHOSEN = 1000
 Key = Annotated[int, Range(0, 2**53)]
-Handle = Literal["none", "move", "turn", "scale"]
+Handle = Literal["none", "move"]
 
 
 @dataclass(frozen=True)

@@ -33,7 +33,7 @@ DISPLAY = (
     *("grid", "dissolved"),
 )
 
-Channel = Literal["color", "depth", "normal", "id"]
+Channel = Literal["color", "depth", "normal", "id", "z"]
 Transfer = Literal["srgb", "linear"]
 Language = Literal["python", "julia"]
 

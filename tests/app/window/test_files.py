@@ -113,10 +113,10 @@ def test_a_picture_is_saved_and_told(tmp_path):
     captures = Captures(lambda: None, tmp_path)
     captures.after_drawing(TARGET)
     assert not captures.busy
-    path = captures.default_path("raster")
-    assert path.name.startswith("lucida raster ")
-    assert captures.default_path("raster") != path  # which may not be written yet
-    captures.ask((1, 1, 4, 3), path)
+    path = captures.default_path()
+    assert path.name.startswith("lucida 20")
+    assert captures.default_path() != path  # which may not be written yet
+    captures.ask(path)
     captures.after_drawing(TARGET)
     wait_for(path.exists)
     told = None
@@ -124,8 +124,8 @@ def test_a_picture_is_saved_and_told(tmp_path):
         told = captures.poll()
     assert told[1]
     assert str(path) in told[0]
-    assert (np.asarray(Image.open(path)) == PIXELS[1:3, 1:4]).all()
-    captures.ask(None, tmp_path / "no" / "such" / "folder.png")
+    assert (np.asarray(Image.open(path)) == PIXELS).all()
+    captures.ask(tmp_path / "no" / "such" / "folder.png")
     captures.after_drawing(TARGET)
     told = None
     while told is None:
@@ -139,9 +139,9 @@ def test_no_picture_takes_another_ones_turn(tmp_path, monkeypatch):
     gate, write = threading.Event(), capture.atomic_write
     monkeypatch.setattr(capture, "atomic_write", lambda to: gate.wait(PATIENT_S) and write(to))
     captures = Captures(lambda: None, tmp_path)
-    names = [captures.default_path("") for _ in range(3)]
+    names = [captures.default_path() for _ in range(3)]
     for name in names:
-        captures.ask(None, name)
+        captures.ask(name)
         captures.after_drawing(TARGET)
     gate.set()
     told = []
@@ -152,7 +152,6 @@ def test_no_picture_takes_another_ones_turn(tmp_path, monkeypatch):
 
 
 def test_a_cut_has_a_pixel_at_least():
-    assert cut(PIXELS, None).shape == (5, 7, 3)
     assert cut(PIXELS, (-9, -9, 99, 99)).shape == (5, 7, 3)
     assert cut(PIXELS, (3, 3, 3, 3)).shape == (1, 1, 3)
     assert cut(PIXELS, (99, 99, 120, 120)).shape == (1, 1, 3)

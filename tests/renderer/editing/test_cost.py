@@ -10,13 +10,12 @@ import pytest
 
 from lucida import Rasterizer
 from lucida.renderer.editing import changing, objects
-from lucida.renderer.editing.moving import transform
+from lucida.renderer.editing.moving import shift
 from lucida.renderer.editing.outline import outline
 from lucida.renderer.files import load_scene
 from lucida.renderer.files.models import models
 from lucida.renderer.raster.tables import TABLE_WIDTH, Table
 from lucida.renderer.scene import Sphere, flatten
-from lucida.renderer.scene.shapes import placement
 from lucida.renderer.trace.bvh import instances
 from lucida.renderer.trace.threads.thread_pool import Team
 
@@ -59,9 +58,9 @@ def meshes(scene):
 
 
 CHANGES = {
-    "move": lambda s: transform(s, [item(s, "first")], placement((0.1, 0, 0))),
-    "turn": lambda s: transform(s, [item(s, "ring")], placement((0, 0, 0), (20, 30, 0))),
-    "move a sphere": lambda s: transform(s, [item(s, "ball")], placement((0.1, 0, 0))),
+    "move": lambda s: shift(s, [item(s, "first")], (0.1, 0, 0)),
+    "turn": lambda s: changing.set_field(s, [item(s, "ring")], "rotate_deg", [20, 30, 0]),
+    "move a sphere": lambda s: shift(s, [item(s, "ball")], (0.1, 0, 0)),
     "material": lambda s: changing.set_field(s, [item(s, "first")], "material.diffuse", "#ff0000"),
     "light": lambda s: objects.add(s, objects.new_table(s, "point"))[0],
     "rename": lambda s: objects.rename(s, item(s, "first"), "other"),

@@ -13,12 +13,11 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.editing import changing, documents, objects
 from lucida.renderer.editing.changing import set_field
 from lucida.renderer.editing.documents import ChangedOnDiskError, is_unsaved, save
-from lucida.renderer.editing.moving import transform
+from lucida.renderer.editing.moving import shift
 from lucida.renderer.editing.outline import outline
 from lucida.renderer.files import load_scene, rewriting, save_scene
 from lucida.renderer.scene import Scene, SceneObject, shapes
 from lucida.renderer.scene.framing import framing_view
-from lucida.renderer.scene.shapes import placement
 from lucida.renderer.system.errors import LucidaError
 
 
@@ -110,7 +109,7 @@ def test_a_file_that_would_lose_its_comments_is_not_written_over(scene, monkeypa
 def test_saved_elsewhere_models_are_still_found_and_the_new_file_is_the_scene_s(scene, tmp_path):
     folder = tmp_path / "other"
     folder.mkdir()
-    changed = transform(scene, [ball(scene)], placement((1, 0, 0)))
+    changed = shift(scene, [ball(scene)], (1, 0, 0))
     saved = save(changed, folder / "new.toml")
     assert documents.file_of(saved) == documents.file_of(scene) == folder / "new.toml"
     assert saved.origin.source == str(folder / "new.toml")
@@ -133,7 +132,7 @@ def test_a_model_alone_is_saved_as_a_scene_beside_it(tmp_path):
     assert documents.suggested_file(scene) == tmp_path / "tent.toml"
     row = outline(scene)[0]
     assert row.kind == "model" and row.triangles == 4
-    moved = transform(scene, [row.item], placement((1, 2, 3)))
+    moved = shift(scene, [row.item], (1, 2, 3))
     assert is_unsaved(moved)
     with pytest.raises(LucidaError, match="no file yet"):
         save(moved)
@@ -163,7 +162,7 @@ def test_without_a_camera_in_its_file_a_scene_keeps_the_view_that_it_had(tmp_pat
     item = outline(scene)[0].item
     painted = save(changing.set_field(scene, [item], "material.diffuse", "#ff0000"))
     assert "camera" not in path.read_text()  # it would be the same one
-    moved = transform(painted, [item], placement((5, 0, 0)))
+    moved = shift(painted, [item], (5, 0, 0))
     assert moved.view == scene.view != framing_view(moved.objects)
     save(moved)
     assert load_scene(path).view == scene.view

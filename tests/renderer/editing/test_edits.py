@@ -12,7 +12,6 @@ from lucida.renderer.editing import changing, materials, moving, objects
 from lucida.renderer.editing.outline import outline
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene import flatten
-from lucida.renderer.scene.shapes import placement
 from lucida.renderer.system.errors import LucidaError
 
 
@@ -146,7 +145,7 @@ def test_what_is_hidden_is_hidden_from_both_renderers_and_ids_stay(scene, gl_bac
 
 
 def test_of_what_is_hidden_nothing_is_left_in_bounds_or_reasons(scene):
-    far = moving.transform(scene, [item(scene, "box")], placement((1e6, 0, 0)))
+    far = moving.shift(scene, [item(scene, "box")], (1e6, 0, 0))
     assert flatten(far).bounds[1, 0] > 1e5
     hidden = objects.hide(far, [item(scene, "box")])
     np.testing.assert_array_equal(flatten(hidden).bounds[1, 0], 2.0)

@@ -11,11 +11,9 @@ from lucida import Rasterizer, Tracer
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from lucida.renderer.editing import changing, documents, objects
-from lucida.renderer.editing.moving import transform
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene import Scene, flatten
 from lucida.renderer.scene.model import View
-from lucida.renderer.scene.shapes import placement
 
 SIZE = (24, 16)
 SEQUENCES, EDITS_EACH = 60, 4
@@ -112,7 +110,7 @@ def test_a_copy_that_is_turned_back_has_its_own_normals_again(start):
     torus = objects.new_table(start, "torus", [0, 0, 0], 1.0)
     scene, items = objects.add(start, torus)
     scene, copies = objects.duplicate(scene, items, (1, 0, 0))
-    turned = transform(scene, copies, placement((0, 0, 0), (0, 40, 0)))
+    turned = changing.set_field(scene, copies, "rotate_deg", [0, 40, 0])
     back = changing.set_field(turned, copies, "rotate_deg", None)
     followed = flatten(back, (turned, flatten(turned, (scene, flatten(scene)))))
     np.testing.assert_array_equal(followed.normals, flatten(back).normals)

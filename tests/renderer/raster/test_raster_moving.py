@@ -6,12 +6,11 @@ import pytest
 
 from lucida import Rasterizer
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.editing.moving import transform
+from lucida.renderer.editing.moving import shift
 from lucida.renderer.editing.outline import outline
 from lucida.renderer.files import load_scene
 from lucida.renderer.raster.tables import TABLE_WIDTH
 from lucida.renderer.scene import Scene
-from lucida.renderer.scene.shapes import placement
 
 SIZES = (40, 30), (44, 30)
 CHANNELS = ("depth", "id", "normal")
@@ -44,9 +43,7 @@ def test_what_is_drawn_does_not_depend_on_what_was(start, gl_backend):
                 done.append(kind)
                 if kind == "move":
                     row = outline(scene)[rng.integers(4)]
-                    turn = tuple(rng.uniform(-40, 40, 3))
-                    matrix = placement(tuple(0.3 * rng.normal(size=3)), turn)
-                    scene = transform(scene, [row.item], matrix)
+                    scene = shift(scene, [row.item], 0.3 * rng.normal(size=3))
                     rasterizer.set_scene(scene)
                 else:
                     rasterizer.draw(camera, size)

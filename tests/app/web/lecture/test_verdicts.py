@@ -10,7 +10,7 @@ from lucida.app.lecture.hiding import HideExercise
 from lucida.app.web.bundle import bundle
 from lucida.app.web.lecture import exercises
 from lucida.app.web.scene_page import packed_scene
-from lucida.renderer.editing.moving import transform
+from lucida.renderer.editing.moving import shift
 
 ODD = (
     *("0", "1", "-1", "1/8", "sqrt(2)/2", "1/0", "abc", "", "2**3", "1e400", "pi", "0x10"),
@@ -84,9 +84,7 @@ def test_places_have_the_programs_verdicts(browser, lecture):
     alone = task.pixels(task.without, ids_seen(task.without, camera, size))
     expected = []
     for where in places:
-        shift = np.eye(4)
-        shift[:3, 3] = where - start
-        moved = transform(task.scene, [task.item], shift)
+        moved = shift(task.scene, [task.item], where - start)
         judged = task.check(moved, ids_seen(moved, camera, size), alone)
         expected.append([judged.right, judged.text])
     script = (

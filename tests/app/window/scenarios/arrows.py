@@ -6,7 +6,6 @@ from lucida.app.instruments.stepper.view import STEPPER, StepperView
 
 START = (100, 120)
 F3, ESCAPE = Key.f3, Key.escape
-PALETTE = Key.mod_ctrl | Key.mod_shift | Key.p
 
 
 def enter(d, name):
@@ -36,17 +35,15 @@ def stands(d):
 
 
 def drive_after_a_click_in_the_camera_panel_or_by_the_keyboard(d):
-    """F3 and the palette show the keyboard's own frame; the mouse has not moved since."""
+    """F3 shows the keyboard's own frame; the mouse has not moved since."""
     enter(d, "Side by side")
     for item in ("//Camera/Canonical", "//Camera/Scene's view", d.field("eye.x")):
         d.click(item)
         rest(d, RAY if item == d.field("eye.x") else RASTER)
         assert [right(d), right(d)] == [1, 1], item
-    for keys in ((F3,), (PALETTE, ESCAPE)):
-        rest(d)
-        for key in keys:
-            d.press(key)
-        assert [right(d), right(d)] == [1, 1], keys
+    rest(d)
+    d.press(F3)
+    assert [right(d), right(d)] == [1, 1]
 
 
 def drive_a_box_over_the_views_keeps_its_keys(d):

@@ -8,7 +8,6 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from window_driver import PATIENT_S, Key, changed
 
 from lucida.app.ui import messages
-from lucida.app.window.palette_entries import entries
 from lucida.app.window.viewer import IDLE_FPS, WAITING_FPS
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene, save_view
@@ -70,18 +69,9 @@ def drive_a_model_s_own_cameras_are_chosen_and_undone(d):
     window.undo()
     d.settle()
     assert window.state == opened
-    (entry,) = (
-        entry for entry in entries(window, window.shell.stage) if entry.name == "Camera: camera"
-    )
-    entry.run()
-    d.until(lambda: window.state.view == named.view)
-    window.undo()
     window.undo()
     d.settle()
     assert window.state == start
-    assert not [
-        entry for entry in entries(window, window.shell.stage) if entry.name.startswith("Camera: ")
-    ]
 
 
 def drive_no_frame_waits_for_the_tracer(d):

@@ -1,4 +1,4 @@
-"""The surroundings of the views: palette, sheet, layouts, looks, bookmarks, pictures."""
+"""The surroundings of the views: sheet, layouts, looks, bookmarks, pictures."""
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
@@ -21,34 +21,6 @@ def into(d, name):
     d.until(lambda: layout.current().name == name)
     layout.reset()
     d.frames(4)
-
-
-def drive_the_palette_does_what_is_typed(d):
-    palette = d.window.shell.palette
-    d.press(CTRL | SHIFT | Key.p)
-    assert palette.open
-    d.ctx.key_chars("parallel")
-    d.frames(2)
-    d.press(Key.enter)
-    assert not palette.open
-    assert d.state.camera.is_parallel
-    d.press(CTRL | SHIFT | Key.p)
-    d.ctx.key_chars("scene spheres")
-    d.frames(2)
-    d.press(Key.enter)
-    d.until(lambda: d.state.scene.name == "spheres")
-    # Without letters, what was done last stands first; the arrows choose.
-    d.press(CTRL | SHIFT | Key.p)
-    d.press(Key.down_arrow)
-    assert not d.state.camera.is_parallel  # the scene's own view
-    d.press(Key.enter)
-    assert d.state.camera.is_parallel
-    d.press(CTRL | SHIFT | Key.p)
-    d.ctx.key_chars("qqqqq")
-    d.press(Key.enter)
-    assert palette.open  # nothing of that name: nothing is done
-    d.press(Key.escape)
-    assert not palette.open
 
 
 def drive_the_sheet_fits_the_window_at_every_size_of_type(d):
@@ -183,17 +155,6 @@ def drive_pictures_show_what_the_window_shows(d):
     window = np.asarray(Image.open(next(shell.captures.folder.glob("*.png"))))
     assert window.shape == (SIZE[1], SIZE[0], 3)
     assert window.std() > 20
-    shell.stage.show(RAY)
-    d.until(lambda: shell.stage.focused == RAY)
-    d.press(SHIFT | Key.f12)
-    d.until(lambda: len(list(shell.captures.folder.glob("lucida ray *.png"))) == 1)
-    view = np.asarray(Image.open(next(shell.captures.folder.glob("lucida ray *.png"))))
-    left, top, right, bottom = map(round, shell.stage.rects[RAY])
-    assert view.shape == (bottom - top, right - left, 3)
-    # The middle of it: nothing of the window's own, which may tell that a picture was saved.
-    whole = window[top:bottom, left:right].astype(int)
-    half = slice(view.shape[0] // 4, view.shape[0] // 2)
-    assert np.abs(whole[half] - view[half]).mean() < 2
     d.until(lambda: not shell.captures.busy)
     d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
 

@@ -86,7 +86,7 @@ def drive_what_is_typed_edits_no_object(d):
     enter(d)
     d.click(in_list(d, "box"))
     before = d.state.scene
-    d.click("//###Inspector/##texture")
+    d.click("//###Inspector/##name")
     for chord in (CTRL | Key.a, CTRL | Key.d):
         d.press(chord)
     d.press(Key.delete)

@@ -23,7 +23,6 @@ def boxes(d):
     files, shell = d.files, d.window.shell
     answers = {"Add it to the scene": lambda: None, "Open it instead": lambda: None}
     opened = {
-        "palette": shell.toggle_palette,
         "shortcut sheet": shell.toggle_help,
         "go to pixel": lambda: d.press(CTRL | Key.g),
         "resolution": lambda: ask_resolution(d.window),
