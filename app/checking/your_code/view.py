@@ -35,6 +35,7 @@ from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.second_camera import GivenRay, corner_rays, second_camera
 from lucida.app.instruments.outside.view import OutsideView
+from lucida.app.lecture.view import LectureView
 from lucida.app.state.options.shared import Pixel
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui import layout, theme
@@ -193,7 +194,9 @@ class YourCode(Instrument):
             imgui.same_line()
         self.told = self._words(report, marked)
         left = imgui.get_content_region_avail()  # pictures may need less than they may have
-        panel.words(self.told, for_words if beside else left, host.fonts)
+        title = panel.words(self.told, for_words if beside else left, host.fonts)
+        if title:
+            host.view(LectureView).read_again(host, title)
         self._show_outside(host, report, marked)
         return wish
 

@@ -14,7 +14,6 @@ from lucida.app.images.pair.image_mouse import ImageMouse
 from lucida.app.images.pair.marks import claim_keys, walked
 from lucida.app.images.pair.pane import Pane, draw_pane
 from lucida.app.images.pair.rulers import ruler_sizes
-from lucida.app.images.pair.toolbar import image_strip
 from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
 from lucida.app.state.app_state import AppState
@@ -195,8 +194,7 @@ class ImageView(Instrument):
             host.files.message = str(problem)
 
     def _strip(self, host: Host) -> None:
-        if host.has_tools and not host.state.preferences.presentation:
-            image_strip(self.name, host)
+        """Draw above the image."""
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
         """Return the pixel to frame: always in the other image, in this one only if it is small."""
