@@ -30,12 +30,6 @@ FORMATS_OF: dict[Form, str] = {
     "NeRF": "nerf",
     "glTF": "gltf",
 }
-# What people call the formats, by their names.
-CALLED = {
-    **{name: str(form) for form, name in FORMATS_OF.items()},
-    "colmap": "COLMAP",
-    "opengl": "OpenGL matrices",
-}
 
 
 @dataclass(frozen=True)
@@ -60,7 +54,7 @@ def as_text(form: Form, subject: Subject) -> str:
         return python(subject.view)
     if form in FORMATS_OF:
         posed = PosedCamera(subject.shown, subject.size)
-        return written([posed], FORMATS_OF[form])[""].decode()
+        return written([posed], FORMATS_OF[form]).decode()
     if subject.shown.lens is not None:
         remedy = "take the lens off, or copy another form"
         raise LucidaError("lens", "is nothing that a matrix holds", remedy)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from contextlib import closing
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lucida.app.cameras.options import add_camera_options
@@ -80,8 +79,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_view_option(parser)
     add_camera_options(parser)
     common.add_drawing_options(parser)
-
-    common.add_lens_options(parser)
     parser.add_argument(
         "--all",
         action="store_true",
@@ -97,9 +94,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.app.cameras.films.frames import stored, with_z
+    from lucida.app.cameras.films.frames import with_z
     from lucida.renderer.compare.why_black import hits_nothing
     from lucida.renderer.images import check_image_path, write_image
+    from lucida.renderer.images.frame import stored
 
     if arguments.renderer != "ray":
         check_effects(arguments)
@@ -145,7 +143,8 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
 
     The frame has the requested channel, and id, which shows whether anything is hit.
     """
-    from lucida.app.cameras.films.frames import Drawing, Shot, stored
+    from lucida.app.cameras.films.frames import Drawing, Shot
+    from lucida.renderer.images.frame import stored
 
     channels = tuple(dict.fromkeys((stored(arguments.channel), "id")))
     with common.progress_bar(arguments.renderer) as progress:
@@ -154,8 +153,7 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
             from lucida.renderer.scene.precision import check_precision
 
             check_precision(camera, arguments.size, lambda: flatten(scene))
-        look = replace(look_of(arguments), enlargement=arguments.enlargement)
-        with closing(Drawing(scene, look)) as drawing:
+        with closing(Drawing(scene, look_of(arguments))) as drawing:
             return drawing.frame(Shot(camera, arguments.size), channels, progress)
 
 

@@ -1,6 +1,6 @@
-"""The options of both images: channels, components, resolutions, magnifications.
+"""The options of both images: channels, resolutions, magnifications.
 
-Their names, and the changes of the state for menus, keys and strips.
+Their names, and the changes of the state for menus and keys.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import get_args
 
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import Channel, ImageOptions
+from lucida.app.state.options.shared import Channel
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError
 
@@ -19,6 +19,7 @@ CHANNELS: dict[Channel, tuple[str, str]] = {
     "depth": ("Depth", "the ray parameter t of the hit: the nearest is white"),
     "normal": ("Normal", "the surface's normal n, world space: (n + 1) / 2 as red, green, blue"),
     "id": ("Object", "which object is seen: a colour for each"),
+    "z": ("Distance z", "the hit's distance z along -w, in units of w: the nearest is white"),
 }
 _SIZE = re.compile(r"\s*(\d{1,6})\s*[x*,; \N{MULTIPLICATION SIGN}]\s*(\d{1,6})\s*", re.IGNORECASE)
 
@@ -48,9 +49,3 @@ def with_magnification(state: AppState, magnification: float | None) -> AppState
     """Magnify about the centre; None: show the whole image."""
     center = (0.5, 0.5) if magnification is None else state.images.center
     return state.with_options(replace(state.images, magnification=magnification, center=center))
-
-
-def resolution_text(options: ImageOptions) -> str:
-    """Return the name of a resolution, for the strip and the menu."""
-    many = f", {options.samples} samples" if options.samples > 1 else ""
-    return (size_text(options.resolution) if options.resolution else "Window") + many

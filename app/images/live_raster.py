@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import moderngl
+import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.images.lens_tables import LensTables
@@ -115,6 +116,12 @@ class LiveRaster:
         if image is None:
             return None
         return self._values(self._rasterizer.of(request.scene), image, channels, region)
+
+    def z(self, image: RasterImage) -> NDArray[np.float32]:
+        """Return the distances z of the newest image, (height, width). Waits for the GPU."""
+        rasterizer = self._rasterizer.of(image.request.scene)
+        depth = rasterizer.read(("depth",), place=PLACES[image.factor > 1])["depth"]
+        return image.request.camera.z_from_t(depth, depth.shape[::-1]).astype(np.float32)
 
     def forget(self) -> None:
         """Drop the image after a failure: it may have been overwritten."""

@@ -56,6 +56,9 @@ class RayImage:
         """Return a channel for display."""
         if channel == "color" and self.mean is not None:
             return self.mean
+        if channel == "z":
+            z = self.request.camera.z_from_t(self.frame.channel("depth"), self.frame.size)
+            return z.astype(np.float32)
         return self.frame.channel(channel)
 
 
@@ -95,8 +98,7 @@ class LiveTrace:
     def request(self, request: ImageRequest, factor: int = 1) -> None:
         """Request an image, `factor` times coarser. Does nothing if that was requested last."""
         with self._changed:
-            newest = self._newest
-            if self._closed or ((request, factor) == newest and self._has_channel(request)):
+            if self._closed or (request, factor) == self._newest:
                 return
             self._newest = request, factor
             if self._cancels and self._job is not None:
@@ -211,8 +213,7 @@ class LiveTrace:
     def _trace(self, tracer: Tracer, wanted: Wanted) -> None:
         """Trace an image, unless a newer request comes that does not wait for it."""
         request, factor = wanted
-        channels = CHANNELS if factor == 1 else (request.channel,)
-        job = tracer.start(request.camera, reduced(request.size, factor), channels)
+        job = tracer.start(request.camera, reduced(request.size, factor), CHANNELS)
         patience_s = FULL_PATIENCE_S if factor == 1 else COARSE_PATIENCE_S
         frame = self._finish(job, wanted, patience_s)
         with self._changed:
@@ -258,11 +259,6 @@ class LiveTrace:
                 if self._is_stale(wanted):
                     job.cancel()
         return job.result()
-
-    def _has_channel(self, request: ImageRequest) -> bool:
-        """Return True if the newest request's image has this request's channel, or will have it."""
-        newest = self._newest
-        return newest is None or newest[1] == 1 or newest[0].channel == request.channel
 
     def _is_stale(self, wanted: Wanted) -> bool:
         return self._closed or self._newest is not wanted

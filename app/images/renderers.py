@@ -30,7 +30,7 @@ from lucida.app.ui.background import lower_priority
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.compare.why_black import Reason
 from lucida.renderer.images.coarseness import reduced
-from lucida.renderer.images.frame import Frame
+from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.raster import Look
 from lucida.renderer.raster.targets import Region
 from lucida.renderer.scene.model import View
@@ -202,8 +202,8 @@ class Renderers(ImageSize):
         """
         request = self.request(state)
         assert request is not None
-        read = self._raster_values(request, (channel,), region)
-        return read[channel] if read is not None else None
+        read = self._raster_values(request, (stored(channel),), region)
+        return _of_channel(channel, request, read[stored(channel)], region) if read else None
 
     def _raster_values(
         self, request: ImageRequest, channels: tuple[str, ...], region: Region
@@ -219,7 +219,8 @@ class Renderers(ImageSize):
         if image is None or image.factor > 1:
             return None
         top, left, bottom, right = region
-        return image.shown(channel)[top:bottom, left:right]
+        values = image.shown(stored(channel))[top:bottom, left:right]
+        return _of_channel(channel, image.request, values, region)
 
     # Progress and errors.
 
@@ -388,12 +389,19 @@ class Renderers(ImageSize):
         return image.frame
 
 
+def _of_channel(channel: str, request: ImageRequest, values: NDArray, region: Region) -> NDArray:
+    """Return a region's values; distances in place of its ray parameters if the channel is z."""
+    if channel != "z":
+        return values
+    top, left, bottom, right = region
+    return request.camera.z_from_t(values, request.size, (slice(top, bottom), slice(left, right)))
+
+
 def look_of(options: ImageOptions) -> Look:
     """Return the look of both images."""
     return Look(
-        options.channel,
+        "depth" if options.channel == "z" else options.channel,
         options.exposure_ev,
         options.transfer,
-        options.component,
         options.dissolved,
     )

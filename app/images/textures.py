@@ -6,7 +6,7 @@ import contextlib
 
 import moderngl
 
-from lucida.app.images.live_raster import Choice, LiveRaster
+from lucida.app.images.live_raster import Choice, LiveRaster, RasterImage
 from lucida.app.images.placement import Placement
 from lucida.app.images.progressive_ray import RayImage
 from lucida.app.images.request import ImageRequest
@@ -37,6 +37,8 @@ class ImageTextures:
         self._uploaded: tuple[RayImage, str] | None = None  # image and channel in _ray_texture
         self._ray_texture: moderngl.Texture | None = None
         self._upload_count = 0
+        self._z_image: RasterImage | None = None
+        self._z_texture: moderngl.Texture | None = None  # of that image
         self._ray_failures = 0
         self._range = DepthRange(context)
         self._depths: DepthBounds | None = None
@@ -81,6 +83,8 @@ class ImageTextures:
             image = self.raster.follow(request)
             self._raster_frame = self._frame
             source = image.texture(look.channel), image
+            if _shows_z(request, look):
+                source = self._z_source(image), image
             if look.channel == "depth":
                 self._measure(source)
             picture = self._pictures.picture(name, look, placement, source, self._depths)
@@ -108,8 +112,7 @@ class ImageTextures:
         name: str = PANE,
     ) -> Picture | None:
         """Return the visible part of the last ray image in a window; None if that has another
-        camera than the raster image, or lacks the channel, or if uploading it failed, see
-        ray_error.
+        camera than the raster image, or if uploading it failed, see ray_error.
         """
         image = self._ray
         if image is None or self._ray_failures >= ATTEMPTS:
@@ -117,9 +120,7 @@ class ImageTextures:
         if not image.is_beside(self._choice(request)[0]):
             return None
         try:
-            if getattr(image.frame, look.channel) is None:
-                return None  # coarse, and begun before the channel was selected
-            source = self._upload(image, look.channel)
+            source = self._upload(image, "z" if _shows_z(request, look) else look.channel)
             if look.channel == "depth" and not self.sees_raster:
                 self._measure(source)
             picture = self._pictures.picture(f"{name} ray", look, placement, source, self._depths)
@@ -147,8 +148,9 @@ class ImageTextures:
         with contextlib.suppress(moderngl.Error):
             for part in (self.rasterizer, self._pictures, self._range):
                 part.release()
-            if self._ray_texture is not None:
-                self._ray_texture.release()
+            for texture in (self._ray_texture, self._z_texture):
+                if texture is not None:
+                    texture.release()
 
     def _upload(self, image: RayImage, channel: str) -> Source:
         """Upload one channel, unless it is there already: in a large image, each takes 100 MB."""
@@ -158,8 +160,20 @@ class ImageTextures:
             self._uploaded, self._upload_count = (image, channel), self._upload_count + 1
         return self._ray_texture, self._upload_count  # not the image, which pictures would keep
 
+    def _z_source(self, image: RasterImage) -> moderngl.Texture:
+        """Return the raster image's distances z, uploaded unless they are there already."""
+        if self._z_image is not image or self._z_texture is None:
+            z = self.raster.z(image)
+            texture, self._z_texture = self._z_texture, None  # upload() releases it if it fails
+            self._z_texture, self._z_image = upload(self._gl, z, texture), image
+        return self._z_texture
+
     def _measure(self, source: Source) -> None:
         self._depths = self._measured(self._range, source)
+
+
+def _shows_z(request: ImageRequest, look: Look) -> bool:
+    return request.channel == "z" and look.channel == "depth"
 
 
 def _measured(depth_range: DepthRange, source: Source) -> DepthBounds:

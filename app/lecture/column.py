@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from imgui_bundle import ImVec2, imgui
 
+from lucida.app.checking.mistakes.diagnosis import READ
 from lucida.app.instruments.outside.growing import stage_at
 from lucida.app.lecture.answer_log import AnswerLog
 from lucida.app.lecture.answer_note import note
@@ -61,8 +62,11 @@ class Column:
         self.answered = self._seek = True
         self._added_s = time.monotonic() if fades else None
 
-    def draw(self, host: Host, session: LectureSession) -> None:
-        """Draw the text. The user can scroll it if it is longer than the column."""
+    def draw(self, host: Host, session: LectureSession) -> str:
+        """Draw the text. The user can scroll it if it is longer than the column. Return the title
+        of the step to read again, if its link was clicked, or "".
+        """
+        title = ""
         imgui.text_colored(theme.DIM, session.step.part or session.lecture.title)
         with lettering(host.fonts.bold, TITLE):
             wrapped(session.step.title)
@@ -76,16 +80,18 @@ class Column:
             if self._to_top:
                 imgui.set_scroll_y(0.0)
                 self._to_top = False
-            self._body(host, session, imgui.get_content_region_avail().y)
+            title = self._body(host, session, imgui.get_content_region_avail().y)
         imgui.end_child()
+        return title
 
-    def draw_over(self, host: Host, session: LectureSession) -> None:
-        """Draw the text over a picture."""
-        self._body(host, session, MOST_OVER * layout.window_px()[1])
+    def draw_over(self, host: Host, session: LectureSession) -> str:
+        """Draw the text over a picture. Return what draw() does."""
+        title = self._body(host, session, MOST_OVER * layout.window_px()[1])
         if session.error:
             wrapped(session.error, theme.ERROR)
+        return title
 
-    def _body(self, host: Host, session: LectureSession, height: float) -> None:
+    def _body(self, host: Host, session: LectureSession, height: float) -> str:
         """Draw the text and the exercise. height: the room for the longest text of the step."""
         step, options = session.step, host.state.options
         blocks, width = step.blocks, imgui.get_content_region_avail().x
@@ -98,12 +104,13 @@ class Column:
         if self._seek:
             imgui.set_scroll_here_y(1.0)
             self._seek = False
-        if step.exercise is not None:
-            if blocks:
-                imgui.dummy(ImVec2(0, 0.5 * imgui.get_font_size()))
-            self._exercise(host, session, step.exercise)
+        if step.exercise is None:
+            return ""
+        if blocks:
+            imgui.dummy(ImVec2(0, 0.5 * imgui.get_font_size()))
+        return self._exercise(host, session, step.exercise)
 
-    def _exercise(self, host: Host, session: LectureSession, task: Exercise) -> None:
+    def _exercise(self, host: Host, session: LectureSession, task: Exercise) -> str:
         answers, said = session.answers, None
         before = replace(answers, texts=dict(answers.texts))
         if isinstance(task, HideExercise):
@@ -117,6 +124,7 @@ class Column:
             self.log.exercise(session.lecture, session.step, answers)
         if self.log is not None and said is not None:
             self.log.hidden(session.lecture, session.step, said, answers.solved)
+        return _link(session)
 
     def _fit(self, session: LectureSession, room: ImVec2) -> None:
         """Make the text as large as all builds of the step allow; an exercise needs its room."""
@@ -139,6 +147,17 @@ class Column:
             return 1.0
         host.animate()
         return alpha
+
+
+def _link(session: LectureSession) -> str:
+    """Draw a link to the step that explains a wrong answer. Return its title if it is clicked."""
+    lecture, verdict = session.lecture, session.answers.verdict
+    if verdict is None or verdict.right or not verdict.is_answer:
+        return ""
+    title = verdict.read or lecture.explaining(session.step)
+    if lecture.number_of(title) in (None, session.number):
+        return ""
+    return title if imgui.text_link(f"{READ}{title}") else ""
 
 
 def _solve(host: Host, task: Exercise) -> None:

@@ -127,6 +127,10 @@ class Lecture:
         before = self.steps[: step.number]
         return next((one.title for one in reversed(before) if one.number not in asking), step.title)
 
+    def number_of(self, title: str) -> int | None:
+        """Return the number of the first step of a title; None if there is none."""
+        return next((step.number for step in self.steps if step.title == title), None)
+
     def nearest(self, title: str, number: int) -> int:
         """Return the number of the nearest step of that title; if there is none, the same number.
 

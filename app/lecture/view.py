@@ -22,7 +22,7 @@ from lucida.app.lecture.drawn_answer import DrawnAnswer
 from lucida.app.lecture.foot import BACK, END, NEXT
 from lucida.app.lecture.invitation import invitation
 from lucida.app.lecture.model import Lecture
-from lucida.app.lecture.reading import load_lecture
+from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.session import LectureReread, LectureSession, reread
 from lucida.app.lecture.step_options import own, state_of
 from lucida.app.state.app_state import AppState
@@ -151,6 +151,15 @@ class LectureView(Instrument):
         if self.session is not None:
             self.session.go(number, build)
             self._enter(window)
+
+    def read_again(self, window: Host, title: str) -> None:
+        """Go to the step of a title in the open lecture, or in the built-in one, which begins."""
+        number = None if self.session is None else self.session.lecture.number_of(title)
+        if number is not None:
+            self.go(window, number)
+            return
+        lecture = load_lecture(BUILTIN)
+        self.give(lecture, BUILTIN, (lecture.number_of(title) or 0, 0))
 
     @property
     def was_left(self) -> bool:
@@ -300,10 +309,9 @@ class LectureView(Instrument):
                 self.give(load_lecture(path), path)
             return
         self._keys(host)
-        if self._lies_over:
-            self.column.draw_over(host, session)
-        else:
-            self.column.draw(host, session)
+        draw = self.column.draw_over if self._lies_over else self.column.draw
+        if title := draw(host, session):
+            self.read_again(host, title)
         if not self._lies_over or self.shows_controls:
             self._do(host, self._controls.draw(host, session))
         self._drawn_answer.show(host, view_of(self._views, OutsideView), session)

@@ -13,17 +13,17 @@ import msgspec
 from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import check
 from lucida.app.state.kept_lecture import KeptLecture
-from lucida.app.state.kept_scene import KeptScene, kept_scene
+from lucida.app.state.kept_scene import text_of_older, unsaved_text
 from lucida.app.state.options import Options
 from lucida.app.state.paths import restored, stored
 from lucida.app.state.removed import without_removed
-from lucida.renderer.files import BUILTIN_SCENES, load_scene
+from lucida.renderer.files import BUILTIN_SCENES
 from lucida.renderer.files.tables import check_integers
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.errors import LucidaError
 
 VERSION = 1  # of the format: the key `lucida_session`
-LARGEST_BYTES = 20 << 20  # an edited scene is in it twice, as it is and as its file is
+LARGEST_BYTES = 20 << 20  # an edited scene is in it
 
 
 # Removed layouts, and the nearest remaining ones.
@@ -45,8 +45,7 @@ class Arrangement:
 
     layout: its name. visible: the names of the shown views. sections: the unfolded parts of a
     view, by the view's name. maximised: the name of the view that covers all others, focused: of
-    the one that has the keyboard, or "". parts: the docks' shares of their room, by layout and
-    space.
+    the one that has the keyboard, or "".
     """
 
     layout: str = ""
@@ -54,7 +53,6 @@ class Arrangement:
     sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
     maximised: str = ""
     focused: str = ""
-    parts: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -62,8 +60,9 @@ class Session:
     """A session file.
 
     scene: an argument of load_scene, as paths.stored() writes it. lecture: the open one, or None.
-    edited: the scene, if it is not what load_scene returns. notes: a line for each removed option
-    in use; not written to the file. The other fields are those of AppState.
+    unsaved: a scene file with the scene, if that is not what load_scene returns; or "". notes: a
+    line for each removed option in use; not written to the file. The other fields are those of
+    AppState.
     """
 
     scene: str
@@ -72,17 +71,13 @@ class Session:
     options: Options = field(default_factory=Options)
     arrangement: Arrangement = field(default_factory=Arrangement)
     lecture: KeptLecture | None = None
-    edited: KeptScene | None = None
+    unsaved: str = ""
     notes: tuple[str, ...] = ()
 
     @property
     def source(self) -> str:
         """The argument of load_scene."""
         return restored(self.scene)
-
-    def load_scene(self) -> Scene:
-        """Return the scene as it was left. Raises LucidaError."""
-        return load_scene(self.source) if self.edited is None else self.edited.scene()
 
     def state(self, scene: Scene) -> AppState:
         """Return the saved state, in the scene that was loaded for it."""
@@ -95,9 +90,10 @@ def session_of(
     """Return what to keep of a state. A scene from no file is replaced by the first built-in
     one.
     """
-    source, edited = stored(source_of(state.scene)), kept_scene(state.scene)
+    source = stored(source_of(state.scene))
+    unsaved = "" if state.step is not None else unsaved_text(state.scene)  # nobody saves a step's
     return Session(
-        source, state.view, state.keep_orthonormal, state.options, arrangement, lecture, edited
+        source, state.view, state.keep_orthonormal, state.options, arrangement, lecture, unsaved
     )
 
 
@@ -148,6 +144,8 @@ def _session(data: bytes) -> Session:
     if isinstance(options, dict):
         table["options"], notes = without_removed(options, is_session=True)
     table.pop("notes", None)
+    if edited := table.pop("edited", None):  # of an earlier version
+        table["unsaved"] = text_of_older(edited)
     try:
         session = msgspec.convert(table, Session)
         check(Session, session)
@@ -159,5 +157,5 @@ def _session(data: bytes) -> Session:
 
 
 def _renamed(found: Arrangement) -> Arrangement:
-    """Return an arrangement without removed layouts; their docks' shares are ignored."""
+    """Return an arrangement without removed layouts."""
     return replace(found, layout=NEAREST.get(found.layout, found.layout))

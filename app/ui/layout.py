@@ -125,7 +125,7 @@ LAYOUTS = (
             (MAIN, RIGHT_SPACE, RIGHT, 0.33),
             (MAIN, LOWER_SPACE, RIGHT, 0.5),
             (MAIN, STACKED_SPACE, DOWN, 0.5),
-            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.36),
+            (RIGHT_SPACE, INSTRUMENTS, DOWN, 0.45),
         ),
         {"Raster": MAIN, "Ray": MAIN, "Outside": MAIN, "Lecture": RIGHT_SPACE},
     ),

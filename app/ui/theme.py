@@ -210,7 +210,7 @@ def _set_style() -> None:
     style.window_menu_button_position = imgui.Dir.none
     accent = colors.ACCENT * (1, 1, 1, 0.5)
     for color, slots in (
-        (colors.TEXT, (col.text, col.check_mark)),
+        (colors.TEXT, (col.text, col.text_link, col.check_mark)),
         (colors.DIM, (col.text_disabled,)),
         (colors.BACKGROUND, (col.menu_bar_bg, col.docking_empty_bg, col.title_bg)),
         (colors.BACKGROUND, (col.title_bg_active, col.title_bg_collapsed)),

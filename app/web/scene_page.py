@@ -6,6 +6,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from lucida.app.instruments.outside.extent import arrow_length
 from lucida.app.web import ENDINGS
 from lucida.app.web.document import document
 from lucida.app.web.formulas import templates
@@ -26,13 +27,14 @@ def packed_scene(scene: Scene) -> dict[str, Any]:
 
     Raises LucidaError if it has too many triangles or texels.
     """
-    flat = flatten(scene)
+    flat, focus = flatten(scene), scene_focus(scene)
     names = [entry.name for entry in scene.objects]
     programs = {"pinhole": shaders(flat, False), "lens": shaders(flat, True)}
-    return packed(flat, scene_focus(scene).framed) | {
+    return packed(flat, focus.framed) | {
         "shaders": programs,
         "name": scene.name,
         "names": names,
+        "arrow": arrow_length(focus.reach),
     }
 
 

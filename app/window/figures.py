@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -11,6 +12,7 @@ import numpy as np
 from imgui_bundle import ImVec4, imgui_microtex
 from PIL import Image
 
+from lucida.app.cameras.films.frames import with_z
 from lucida.app.instruments.outside.figure import (
     LETTER_WIDTH,
     WHITE,
@@ -20,21 +22,23 @@ from lucida.app.instruments.outside.figure import (
     Part,
     Picture,
 )
-from lucida.app.instruments.outside.figure_view import outside_figure
+from lucida.app.instruments.outside.figure_view import PLACE, outside_figure
 from lucida.app.instruments.outside.paint import figure_color, ground_of
 from lucida.app.instruments.outside.png import painted
 from lucida.app.instruments.outside.svg import svg
 from lucida.app.instruments.probe.copying import all_lines, as_latex
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.instruments.probe.view import ProbeView
+from lucida.app.state.app_state import AppState
 from lucida.app.ui import formula, theme
 from lucida.app.ui.explaining.plain import plain_math
 from lucida.app.ui.host import Host
 from lucida.app.web import pdf
 from lucida.app.window.figure_choice import ENDINGS, FigureChoice, What
 from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import picture
-from lucida.renderer.images.frame import Frame
+from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.system.errors import LucidaError
 
 GAP = 0.02  # between the pair, in parts of the width
@@ -44,34 +48,48 @@ FORMULA_GAP, ROW_GAP = 0.3, 0.4  # from one to the next, in parts of their size
 
 def figure_of(host: Host, choice: FigureChoice) -> Figure:
     """Return a figure of what the window shows. Raises LucidaError, moderngl.Error."""
-    behind = ground_of(host.state.scene.background, host.state.images.exposure_ev)
-    if choice.what == "probe":
-        behind = theme.PANEL.x, theme.PANEL.y, theme.PANEL.z
-    page: Color = behind if choice.ground == "shown" else WHITE
-    ground = None if choice.ground == "transparent" else page
+    page, ground = _page(host, choice)
     if choice.what == "outside":
         figure = outside_figure(host, choice.size, choice.scale, page)
         return Figure(figure.size, figure.parts, figure.unit, ground, figure.image)
-    parts = _formulas(host, choice, page) if choice.what == "probe" else _images(host, choice)
+    if choice.what == "probe":
+        parts: Iterable[Part] = _formulas(host, choice, page)
+    else:
+        parts = _images(host.state, choice, [_shown(host, name) for name in _names(choice)])
     return Figure(choice.size, tuple(parts), choice.scale, ground)
 
 
 def encoder(host: Host, choice: FigureChoice) -> Callable[[str], bytes]:
-    """Return a function that makes a figure's file for an ending, on any thread.
+    """Return a function that makes a figure's file for an ending, on any thread. An image has the
+    page's pixels, unless the window's resolution is set.
 
     Raises LucidaError, moderngl.Error.
     """
-    figure, name = figure_of(host, choice), host.state.scene.name
-    is_probe = choice.what == "probe"
+    name, is_probe = host.state.scene.name, choice.what == "probe"
+    if _names(choice) and host.state.images.resolution is None:
+        make = _images_anew(host, choice)
+    else:
+        figure = figure_of(host, choice)
+        make = lambda: figure  # noqa: E731
     latex = as_latex(_reading(host), host.options.indexing) if is_probe else ""
-    return partial(_encoded, figure, f"{name}: {choice.what}" if name else choice.what, latex)
+    return partial(_encoded, make, f"{name}: {choice.what}" if name else choice.what, latex)
 
 
-def _encoded(figure: Figure, title: str, latex: str, ending: str) -> bytes:
+def _page(host: Host, choice: FigureChoice) -> tuple[Color, Color | None]:
+    """Return the colour of the page, and of its ground; None for a transparent one."""
+    behind = ground_of(host.state.scene.background, host.state.images.exposure_ev)
+    if choice.what == "probe":
+        behind = theme.PANEL.x, theme.PANEL.y, theme.PANEL.z
+    page: Color = behind if choice.ground == "shown" else WHITE
+    return page, None if choice.ground == "transparent" else page
+
+
+def _encoded(make: Callable[[], Figure], title: str, latex: str, ending: str) -> bytes:
     if ending == ".tex":
         if not latex:
             raise LucidaError(ending, "is for the probe's formulas", f"give {', '.join(ENDINGS)}")
         return latex.encode()
+    figure = make()
     if ending == ".png":
         file = io.BytesIO()
         Image.fromarray(painted(figure)).save(file, "PNG")
@@ -85,30 +103,78 @@ def _encoded(figure: Figure, title: str, latex: str, ending: str) -> bytes:
     return pdf.pdf(f"<!DOCTYPE html><style>{style}</style>{drawing}", pdf.browser())
 
 
-def _images(host: Host, choice: FigureChoice) -> list[Part]:
-    """Return one image or both side by side, as large as the page allows, pixel by pixel."""
+def _names(choice: FigureChoice) -> tuple[What, ...]:
+    """Return the images that a figure shows, from left to right."""
+    if choice.what == "pair":
+        return "raster", "ray"
+    return (choice.what,) if choice.what in ("raster", "ray") else ()
+
+
+def _shown(host: Host, name: What) -> Frame:
+    """Return an image of the window, with its present channel and the depth."""
     state, both = host.state, host.renderers
-    names: tuple[What, ...] = ("raster", "ray") if choice.what == "pair" else (choice.what,)
-    gap = GAP * choice.size[0] * (len(names) - 1)
-    room = np.array([(choice.size[0] - gap) / len(names), choice.size[1]])
     region, channel = (0, 0, *both.size[::-1]), state.images.channel
-    parts: list[Part] = []
-    for number, name in enumerate(names):
-        values = both.raster_values if name == "raster" else both.ray_values
-        found: dict[str, Any] = {key: values(state, key, region) for key in (channel, "depth")}
-        if any(one is None for one in found.values()):
-            raise LucidaError(
-                f"the {name} image", "is not complete, or no view shows it", "wait, or show it"
-            )
-        pixels = picture(Frame(both.size, **found), channel, state.images.exposure_ev)
+    values = both.raster_values if name == "raster" else both.ray_values
+    shown, depth = (values(state, key, region) for key in (channel, "depth"))
+    if shown is None or depth is None:
+        raise LucidaError(
+            f"the {name} image", "is not complete, or no view shows it", "wait, or show it"
+        )
+    channels: dict[str, Any] = {"depth": depth, stored(channel): shown}
+    return Frame(both.size, **channels)
+
+
+def _images_anew(host: Host, choice: FigureChoice) -> Callable[[], Figure]:
+    """Return a function that makes a figure of images with the page's pixels, on any thread."""
+    state, both = host.state, host.renderers
+    request, names, channel = both.request(state), _names(choice), state.images.channel
+    assert request is not None
+    assert both.textures is not None
+    request = replace(request, size=_extent(choice, both.size))
+    channels, frames = (stored(channel), "depth"), dict[What, Frame]()
+    if "raster" in names:
+        rasterizer = both.textures.rasterizer
+        rasterizer.draw(request, PLACE)
+        arrays = rasterizer.of(request.scene).read(channels, place=PLACE)
+        frames["raster"] = Frame(request.size, **arrays)
+    ground = _page(host, choice)[1]
+
+    def make() -> Figure:
+        if "ray" in names:
+            with both.live.make_tracer(request) as tracer:
+                frames["ray"] = tracer.render(
+                    request.camera, request.size, channels, request.samples
+                )
+        shown = [frames[name] for name in names]
+        if channel == "z":
+            shown = [with_z(frame, request.camera) for frame in shown]
+        parts = _images(state, choice, shown)
+        return Figure(choice.size, tuple(parts), choice.scale, ground)
+
+    return make
+
+
+def _extent(choice: FigureChoice, shape: Size) -> Size:
+    """Return the size of each image on the page: as large as there is room, of a size's shape."""
+    count = len(_names(choice))
+    room = (1 - GAP * (count - 1)) * choice.size[0] / count, choice.size[1]
+    scale = min(room[0] / shape[0], room[1] / shape[1])
+    return max(1, round(scale * shape[0])), max(1, round(scale * shape[1]))
+
+
+def _images(state: AppState, choice: FigureChoice, frames: Sequence[Frame]) -> Iterator[Part]:
+    """Yield one image, or both side by side, pixel by pixel."""
+    width, height = _extent(choice, frames[0].size)
+    free = choice.size[0] - len(frames) * width
+    gap = round(GAP * choice.size[0]) * (len(frames) - 1)
+    y = (choice.size[1] - height) // 2
+    for number, (name, frame) in enumerate(zip(_names(choice), frames, strict=True)):
+        pixels = picture(frame, stored(state.images.channel), state.images.exposure_ev)
         if choice.ground != "shown":
-            seen = np.isfinite(found["depth"])[..., None] * np.uint8(255)
+            seen = np.isfinite(frame.channel("depth"))[..., None] * np.uint8(255)
             pixels = np.concatenate([pixels, seen], axis=2, dtype=np.uint8)
-        extent = np.array(both.size) * (room / both.size).min()
-        low = (number * (room[0] + gap), 0.0) + (room - extent) / 2
-        (x, y), (x_end, y_end) = low.tolist(), (low + extent).tolist()
-        parts.append(Picture(name, pixels, (x, y), (x_end, y_end)))
-    return parts
+        x = (free - gap) // 2 + number * (width + gap)
+        yield Picture(name, pixels, (x, y), (x + width, y + height))
 
 
 def _reading(host: Host) -> Reading:

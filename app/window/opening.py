@@ -185,9 +185,10 @@ def reread(source: str, scene: Scene, agreed: frozenset[Path] | None) -> Opened:
     return Opened((replace(newer, replaces=scene),))
 
 
-def opened_scene(source: str, scene: Scene, view: View, use: Use) -> Opened:
-    """Return a source's scene, seen by a view."""
-    return Opened((OpenedScene(scene, _prepared(scene), use=use), OpenedView(view)), (source,))
+def first_scene(source: str, scene: Scene, view: View) -> Opened:
+    """Return a source's scene, seen by a view, as the first one of a window."""
+    opened = OpenedScene(scene, _prepared(scene), use="first")
+    return Opened((opened, OpenedView(view)), (source,))
 
 
 def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:

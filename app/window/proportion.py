@@ -1,7 +1,7 @@
 """The division of the room among a layout's dock spaces.
 
-Keeps the spaces' shares while the window is resized and from one start to the next. layout.py
-decides where the spaces are and what is in them.
+Keeps the spaces' shares while the window is resized; ImGui saves their sizes. layout.py decides
+where the spaces are and what is in them.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from imgui_bundle import imgui
 from lucida.app.ui import layout
 
 ARRANGING_FRAMES = 3  # until a layout's dock spaces exist again
-RESTORING_FRAMES = 5  # at a start, until the layout of the session is there
 ROUNDED_PX = 1.5  # largest rounding of a dock space's size by ImGui
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
@@ -27,11 +26,9 @@ class _Share:
     size: the space's size at that time, which ImGui rounds. Shares from rounded sizes would drift.
     settling: the frames until the new sizes are there.
     again: the frames in which they are set again.
-    known: True if the share comes from a session, not from the layout.
     """
 
     part: float = 0.5
-    known: bool = False
     room: float = 0.0
     size: float = 0.0
     settling: int = 0
@@ -41,22 +38,21 @@ class _Share:
         self,
         node: imgui.internal.DockNode,
         parent: imgui.internal.DockNode,
-        other: imgui.internal.DockNode | None,
+        other: imgui.internal.DockNode,
         x: bool,
     ) -> None:
-        """other: the node next to it, unless that has the rest by itself."""
+        """other: the node next to it."""
         size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
-        kept = (node.size_ref.x, parent.size_ref.x) if x else (node.size_ref.y, parent.size_ref.y)
-        if not self.room and not self.known and 0 < kept[0] < kept[1]:
-            self.part = kept[0] / kept[1]  # the layout's, or about what ImGui has saved
+        kept = (node.size_ref.x, other.size_ref.x) if x else (node.size_ref.y, other.size_ref.y)
+        if not self.room and min(kept) > 0:
+            self.part = kept[0] / sum(kept)  # the layout's, or what ImGui has saved
         if room != self.room or self.again:
             self.again = max(0, self.again - 1)
             size = max(1.0, float(round(self.part * room)))  # ImGui saves whole numbers
             left = max(1.0, room - size)
             for one, side in ((node, size), (other, left)):
-                if one is not None:
-                    new = (side, one.size.y) if x else (one.size.x, side)
-                    imgui.internal.dock_builder_set_node_size(one.id_, new)
+                new = (side, one.size.y) if x else (one.size.x, side)
+                imgui.internal.dock_builder_set_node_size(one.id_, new)
             self.room, self.size, self.settling = room, size, 2
         elif self.settling:
             self.settling -= 1
@@ -80,23 +76,6 @@ class Proportion:
         self._around_camera = (0.0, 0.0)  # the width of the room that it is part of, and the type
         self._anew = 0  # frames in which it is set again
         self._arranged = 0
-        self._restoring = 0  # frames in which sizes that ImGui has saved are overruled
-
-    def parts(self) -> dict[str, float]:
-        """Return the spaces' shares, for a session. ImGui saves whole pixels, and the room may have
-        another size at the next start.
-        """
-        return {"/".join(key): share.part for key, share in self._shares.items() if share.room}
-
-    def restore(self, parts: dict[str, float]) -> None:
-        """Restore a session's shares, before the first frame. Invalid ones are ignored."""
-        for one in layout.LAYOUTS:
-            for _, space, _, _ in one.splits:
-                key = one.name, space
-                part = parts.get("/".join(key), 0.0)
-                if 0.0 < part < 1.0:
-                    self._shares[key] = _Share(part, known=True)
-        self._restoring = RESTORING_FRAMES
 
     def keep(self, arranged: int = 0) -> None:
         """Update the shares. Call once a frame. arranged: a number that changes with each call of
@@ -106,9 +85,8 @@ class Proportion:
             self._layout = ""  # ImGui divides a window without room; all is set again after that
             return
         shown = layout.current()
-        anew = arranged != self._arranged or shown.name != self._layout or self._restoring > 0
+        anew = arranged != self._arranged or shown.name != self._layout
         self._arranged, self._layout = arranged, shown.name
-        self._restoring = max(0, self._restoring - 1)
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
             self._keep_camera(shown.name, anew)
         for whole, space, direction, _ in shown.splits:
@@ -120,12 +98,14 @@ class Proportion:
             parent = node.parent_node if node is not None else None
             if node is None or parent is None or min(*parent.size, *node.size) <= 0:
                 continue
+            other = _child(layout.node_of(whole), parent)
+            if other is None:
+                continue
             if tuple(node.size) == tuple(parent.size):  # nothing is next to it
                 continue
             share = self._shares.setdefault((shown.name, space), _Share())
             if anew and share.room:
                 share.again = ARRANGING_FRAMES
-            other = None if whole == layout.MAIN else _child(layout.node_of(whole), parent)
             share.keep(node, parent, other, across)
 
     def _keep_camera(self, name: str, anew: bool) -> None:

@@ -21,12 +21,14 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.kept_lecture import KeptLecture
 from lucida.app.state.options import Options
 from lucida.app.state.session import Session
-from lucida.app.window.opening import Opened, Use, opened_scene
+from lucida.app.window.capture import free_path
+from lucida.app.window.opening import Opened, first_scene
 from lucida.app.window.session_store import Keeper, SessionFile, take_place
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.files.models.models import ModelFile, read_by, read_model
 from lucida.renderer.scene import Scene, View
-from lucida.renderer.system.errors import LucidaError, describe, one_line
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError, describe
 
 ChangeView = Callable[[View], View]
 LARGE_BYTES = 1 << 20  # a model of this size delays the first frame
@@ -35,25 +37,18 @@ UNKEPT = "This session will not be kept: the settings folder cannot be written t
 
 @dataclass(frozen=True)
 class Later:
-    """A scene that takes long to read.
-
-    view: returns the view of it. load: how, if not by load_scene(); rescued: returns what happened
-    to it if it cannot be read.
-    """
+    """A scene that takes long to read. view: returns the view of it."""
 
     source: str
     view: ChangeView
-    load: Callable[[], Scene] | None = None
-    rescued: Callable[[], str] = str
-    use: Use = "first"
 
     def open(self) -> Opened:
         """Read the scene. Errors are reported, and the window keeps the scene it began with."""
         try:
-            scene = load_scene(self.source) if self.load is None else self.load()
-            return opened_scene(self.source, scene, self.view(scene.view), self.use)
+            scene = load_scene(self.source)
+            return first_scene(self.source, scene, self.view(scene.view))
         except LucidaError as error:
-            return Opened(problems=(describe(error) + self.rescued(),))
+            return Opened(problems=(describe(error),))
 
 
 @dataclass(frozen=True)
@@ -64,8 +59,8 @@ class Start:
     a scene for the recent files. later: replaces the state's scene as soon as it is read. lecture:
     the one to go on with. fresh: begin as on the first day, without the layout of an earlier
     window. left: the last session's lecture. code: the absolute path of a student's Python file,
-    which is run. poses: a set of cameras to show. unsaved: changes of the last session that this
-    start does not go on with.
+    which is run. poses: a set of cameras to show. unsaved: a scene file with the changes that
+    the last session has not saved.
     """
 
     state: AppState
@@ -79,18 +74,7 @@ class Start:
     fresh: bool = False
     code: str = ""
     poses: PoseSet | None = None
-    unsaved: Unsaved | None = None
-
-
-@dataclass(frozen=True)
-class Unsaved:
-    """Changes that a crashed window left in its session, which now ends.
-
-    told: where they are kept, in words. edited: restores the scene as it was.
-    """
-
-    told: str
-    edited: Later
+    unsaved: Path | None = None
 
 
 def begin_scene(
@@ -136,9 +120,10 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
     if session is None:
         return replace(begin_scene(), keeper=keeper, message=found.message)
     lecture, message = _lecture(session.lecture)
-    start = _gone_on(session, lecture, place)
+    start = _gone_on(session, lecture)
     both = "\n".join(said for said in (message, start.message) if said)
-    return replace(start, keeper=keeper, lecture=lecture, message=both)
+    unsaved = _rescued(session, place)
+    return replace(start, keeper=keeper, lecture=lecture, message=both, unsaved=unsaved)
 
 
 def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start:
@@ -179,23 +164,22 @@ def _in_place(start: Start, folder: Path | None) -> tuple[Options, Start]:
     session = found.session
     if session is None:
         return Options(), start
-    start = replace(start, left=session.lecture)
-    if session.edited is not None:
-        told = f"The last session left unsaved changes of {one_line(session.edited.name)}."
-        if path := _rescued(session, place):
-            told += f" They are kept in {path}."
-        view = session.view
-        edited = Later(session.source, lambda _: view, session.load_scene, use="open")
-        start = replace(start, unsaved=Unsaved(told, edited))
-    return session.options, start
+    return session.options, replace(start, left=session.lecture, unsaved=_rescued(session, place))
 
 
 def _rescued(session: Session, place: SessionFile) -> Path | None:
-    """Keep the changes that a session holds of its scene: in a scene file, otherwise by setting the
-    session aside. Return the file; None if there are no changes, or nothing can be written."""
-    if session.edited is None:
+    """Keep the unsaved changes of a session in a scene file, or set the session aside. Return the
+    file; None if there are no changes, or nothing can be written.
+    """
+    if not session.unsaved:
         return None
-    return session.edited.rescue(place.path.parent) or place.put_aside("unsaved")
+    path = free_path(place.path.with_name("unsaved.toml"))
+    try:
+        with atomic_write(path) as file:
+            file.write(session.unsaved.encode())
+    except LucidaError:
+        return place.put_aside("unsaved")
+    return path
 
 
 def first_state(
@@ -232,29 +216,23 @@ def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
     return lecture, f"{lecture.lecture.source} has changed since the last session. {restore}"
 
 
-def _gone_on(session: Session, lecture: LectureSession | None, place: SessionFile) -> Start:
-    """Go on with the session's scene, or with the default one if that cannot be read, or not yet.
-
-    place: of the session; an edited scene that cannot be read is kept next to it.
+def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
+    """Go on with the session's scene, or with the default one if that cannot be read, or not
+    yet.
     """
     step = lecture if session.lecture is not None and session.lecture.in_step else None
-    if step is not None and session.edited is None:
+    if step is not None:
         return Start(replace(session.state(step.step.scene), step=step.place), session)
-
-    def rescued() -> str:
-        path = _rescued(session, place)
-        return f". Its unsaved changes are kept in {path}." if path is not None else ""
 
     message = ""
     try:
-        scene = _soon(session.load_scene)
+        scene = _soon(lambda: load_scene(session.source))
     except LucidaError as error:
-        scene, message = None, f"The last session's scene could not be opened. {error}{rescued()}"
+        scene, message = None, f"The last session's scene could not be opened. {error}"
     if scene is not None:
-        state = session.state(scene)
-        return Start(state if step is None else replace(state, step=step.place), session)
+        return Start(session.state(scene), session)
     view = session.view
-    later = None if message else Later(session.source, lambda _: view, session.load_scene, rescued)
+    later = None if message else Later(session.source, lambda _: view)
     default = load_scene(BUILTIN_SCENES[0])  # of which the session's camera may see nothing
     state = replace(session.state(default), view=default.view)
     return Start(state, session, message=message, later=later)

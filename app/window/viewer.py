@@ -55,7 +55,8 @@ PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the
 NULL_FPS = 60.0
 IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
 WAITING_FPS = 2.0  # while the ray image is on its way: how far it is, is told
-RESTORE = "Restore them"
+UNSAVED = "The last session left unsaved changes of its scene. They are kept in"
+RESTORE = "Open that file"
 DOUBLE_CLICK_S = 0.5
 SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame by this, not 5 ms
 
@@ -138,7 +139,6 @@ class WindowRun:
     def _take(self, start: Start) -> None:
         if start.session is not None:
             self.window.shell.stage.restore(start.session.arrangement)
-            self.window.shell.proportion.restore(start.session.arrangement.parts)
         if start.lecture is not None:
             self.window.lecture.resume(start.lecture)
         elif start.session is not None and start.session.lecture is not None:
@@ -149,9 +149,8 @@ class WindowRun:
         if start.later is not None:
             self.window.files.open_later(start.later.source, start.later.open)
         if start.unsaved is not None:
-            edited, files = start.unsaved.edited, self.window.files
-            restore = {RESTORE: lambda: files.open_later(edited.source, edited.open)}
-            files.ask(start.unsaved.told, restore)
+            path, files = str(start.unsaved), self.window.files
+            files.ask(f"{UNSAVED} {path}.", {RESTORE: lambda: files.open(path)})
         if start.code:
             self.window.open_code(start.code)
             self.window.files.recent.add(start.code)

@@ -237,11 +237,13 @@ class Camera:
         direction = self.lens_directions(size) @ self.basis.T
         return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
 
-    def z_from_t(self, t: ArrayLike, size: Size) -> Floats:
-        """Return the distances z along -w, in units of w, of the ray parameters t of all pixels:
-        both (height, width). It is infinite where t is.
+    def z_from_t(
+        self, t: ArrayLike, size: Size, part: tuple[slice, slice] = (slice(None), slice(None))
+    ) -> Floats:
+        """Return the distances z along -w, in units of w, of the ray parameters t of a part of the
+        pixels: both (rows, columns). It is infinite where t is.
         """
-        ahead = self.distance if self.lens is None else -self.lens_directions(size)[..., 2]
+        ahead = self.distance if self.lens is None else -self.lens_directions(size)[*part, 2]
         with np.errstate(invalid="ignore"):  # outside of the lens
             z = np.asarray(t, float) * (1.0 if self.is_parallel else ahead)
         return np.where(np.isfinite(t), z, t)

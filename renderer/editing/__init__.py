@@ -28,7 +28,7 @@ from lucida.renderer.editing.documents import (
     save,
     suggested_file,
 )
-from lucida.renderer.editing.materials import set_material, set_single_sided
+from lucida.renderer.editing.materials import set_material
 from lucida.renderer.editing.moving import bounds_of, shift
 from lucida.renderer.editing.objects import (
     LIGHTS,
@@ -69,7 +69,6 @@ __all__ = [
     "set_field",
     "set_material",
     "set_scene_field",
-    "set_single_sided",
     "shift",
     "suggested_file",
     "table_of",

@@ -34,21 +34,6 @@ def set_material(scene: Scene, items: Sequence[Item], field: str, value: Any) ->
     return set_field(own_material(scene, items), items, f"material.{field}", value)
 
 
-def set_single_sided(scene: Scene, items: Sequence[Item], value: bool) -> Scene:
-    """Return the scene with the items' backs hidden or visible.
-
-    A model's own materials stay unchanged: its object has a switch for all of them.
-    """
-    scene = as_tables(scene)
-    models = [item for item in items if entry_of(scene, item).table["type"] == "model"]
-    others = [item for item in items if item not in models]
-    if models:
-        scene = set_field(scene, models, "single_sided", value)
-    if others:
-        scene = set_material(scene, others, "single_sided", value or None)
-    return scene
-
-
 def own_material(scene: Scene, items: Sequence[Item]) -> Scene:
     """Return the scene with the items' own materials, equal to their present ones."""
     scene = as_tables(scene)

@@ -77,6 +77,11 @@ class Frame:
         return Frame((width, height), **channels, time_s=self.time_s, complete=self.complete)
 
 
+def stored(channel: str) -> str:
+    """Return the frame's channel that holds a shown one: z is in the depth's place."""
+    return "depth" if channel == "z" else channel
+
+
 def check_channels(channels: Iterable[str]) -> tuple[str, ...]:
     """Return the channels as a tuple. Raises LucidaError for an unknown name."""
     channels = (channels,) if isinstance(channels, str) else tuple(channels)

@@ -88,7 +88,7 @@ class Driver:
         self.drop: Callable[[list[str]], None] = lambda paths: None  # files, upon the window
         self.stay = False  # the mouse, while a picture is taken
         self._pictures = 0
-        Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.busy)
+        Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.wanted)
         viewer.WindowCanvas = Glimpses
         self.files.native = False  # the system's dialogs, which would wait for somebody
         on_drop = main_window.on_drop

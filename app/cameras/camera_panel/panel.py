@@ -23,6 +23,7 @@ from lucida.app.cameras.camera_panel.sections import (
 )
 from lucida.app.cameras.editing import BASIS, Draft
 from lucida.app.state.app_state import AppState
+from lucida.app.state.options.camera import CameraPart
 from lucida.app.ui import pending, rows, theme
 from lucida.app.ui.checks import radio_button
 from lucida.app.ui.fields import Scale
@@ -33,6 +34,7 @@ ROLES = {
     "v": ("v", "up", "v: up in the image. A pixel's place counts in lengths of v."),
     "w": ("w", "back", "w: backwards, against the view direction: the camera looks along -w."),
 }
+SECTIONS: tuple[CameraPart, ...] = ("More", "Lens", "K, R and t", "Look at")
 PERSPECTIVE = """\
 All rays start at the eye and go through their pixel on the image plane:
 p = cam.e,  d = u*cam.u + v*cam.v - cam.d*cam.w"""
@@ -66,11 +68,12 @@ def camera_panel(
 def _panel(
     state: AppState, panel: PanelOutcome, around: PanelContext
 ) -> tuple[AppState, PanelOutcome]:
-    draft = panel.draft.following(state.camera)
-    wish = _projection(state)
+    draft, options = panel.draft.following(state.camera), state.options.camera
+    wish = _projection(state) if options.shows("projection") else None
     state, draft = _vectors(state, draft, around)
     state, draft = projection_numbers(state, draft, around)
-    wish = _resets() or wish
+    if not options.shown:
+        wish = _resets() or wish
     state, draft, sections, wanted = _sections(state, draft, panel.sections, around)
     draft, wish = draft.following(state.camera), wanted or wish
     if draft.error is not None:
@@ -98,6 +101,10 @@ def _projection(state: AppState) -> Wish | None:
 
 
 def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
+    options = state.options.camera
+    roles = [name for name in ROLES if options.shows("eye" if name == "eye" else "basis")]
+    if not roles:
+        return state, draft
     thirds = rows.Thirds()
     imgui.text_colored(theme.DIM, "")
     for axis, letter in enumerate("xyz"):
@@ -105,7 +112,8 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
         middle = (thirds.field_px - imgui.calc_text_size(letter).x) / 2
         imgui.set_cursor_pos_x(imgui.get_cursor_pos_x() + middle)
         imgui.text_colored(theme.DIM, letter)
-    for name, (letter, role, tip) in ROLES.items():
+    for name in roles:
+        letter, role, tip = ROLES[name]
         color = theme.BASIS.get(name, theme.PLAIN)
         rows.label(letter, role, color if name in BASIS else theme.TEXT, around.fonts, tip)
         reach = around.focus.reach if name == "eye" else 1.0
@@ -142,10 +150,10 @@ def _sections(
     state: AppState, draft: Draft, sections: Sections, around: PanelContext
 ) -> tuple[AppState, Draft, Sections, Wish | None]:
     wish: Wish | None = None
-    look = sections.look
+    look, shown = sections.look, state.options.camera.shown
     opened = []
-    for name in ("More", "Lens", "K, R and t", "Look at"):
-        if not header(name, sections):
+    for name in SECTIONS:
+        if not (name in shown if shown else header(name, sections)):
             continue
         opened.append(name)
         draft = draft.following(state.camera)
@@ -158,4 +166,4 @@ def _sections(
             wish = wish or wanted
         else:
             state, wish = words_section(state, around.size, around.fonts)
-    return state, draft, Sections(look, tuple(opened)), wish
+    return state, draft, Sections(look, sections.opened if shown else tuple(opened)), wish

@@ -71,11 +71,15 @@ class PanelContext:
 def projection_numbers(
     state: AppState, draft: Draft, around: PanelContext
 ) -> tuple[AppState, Draft]:
-    """Draw all numbers into the current window."""
-    state, draft = _distance(state, draft.following(state.camera), around)
-    state, draft = _field_of_view(state, draft.following(state.camera), around)
-    rows.line()
-    return _viewport(state, draft.following(state.camera), around)
+    """Draw the numbers that are to be shown into the current window."""
+    options = state.options.camera
+    if options.shows("d"):
+        state, draft = _distance(state, draft.following(state.camera), around)
+        state, draft = _field_of_view(state, draft.following(state.camera), around)
+        rows.line()
+    if options.shows("viewport"):
+        state, draft = _viewport(state, draft.following(state.camera), around)
+    return state, draft
 
 
 def component(

@@ -38,7 +38,7 @@ LOOK_FIELDS = (
 
 @dataclass(frozen=True)
 class LookAt:
-    """The form's contents. target: None for the scene's centre."""
+    """The form's contents. target: None for that of a lecture's step, or the scene's centre."""
 
     target: Vector | None = None
     up: Vector = (0.0, 1.0, 0.0)
@@ -71,7 +71,8 @@ def header(name: str, sections: Sections) -> bool:
 def look_section(look: LookAt, state: AppState, around: PanelContext) -> tuple[LookAt, Wish | None]:
     """Draw the form for target and up, seen from the eye."""
     thirds = rows.Thirds()
-    now = {"target": look.target or around.focus.center, "up": look.up}
+    target = look.target or state.options.outside.target or around.focus.center
+    now = {"target": target, "up": look.up}
     for name, note in LOOK_FIELDS:
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.TEXT, name)

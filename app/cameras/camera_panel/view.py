@@ -16,6 +16,7 @@ from lucida.app.cameras.camera_panel.sections import Sections
 from lucida.app.cameras.editing import Draft
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
+from lucida.app.ui.layout import INSTRUMENTS
 
 CAMERA = "Camera"
 
@@ -29,6 +30,7 @@ class CameraView(Instrument):
 
     name = CAMERA
     title = "Camera"
+    space = INSTRUMENTS
     actions = (*EDIT, *ACTIONS)
 
     def __init__(self, views: Sequence[Instrument] = ()) -> None:

@@ -23,6 +23,7 @@ Cases = Sequence[CheckCase]
 
 MOST = 1000  # of cases that are examined; large images have more rays
 NAMED = 3  # candidates named; more would not help
+READ = "Read again: "  # before the title of a lecture's step
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,7 +93,7 @@ def _candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[st
     if len(found) > NAMED:
         sentences.append(f"{len(found) - NAMED} more mistakes would give the same numbers.")
     parts = dict.fromkeys(mistake.part for mistake in first)
-    return [*sentences, f"Read again: {', '.join(parts)}."]
+    return [*sentences, *(f"{READ}{title}." for title in parts)]
 
 
 # The correct parts of wrong rays, reported when no mistake fits.

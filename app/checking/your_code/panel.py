@@ -11,6 +11,7 @@ from typing import Literal
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
+from lucida.app.checking.mistakes.diagnosis import READ
 from lucida.app.checking.own_words import returned, signature
 from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask
@@ -139,17 +140,24 @@ def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
     return ImVec2(room.x, room.y - height - gap.y), ImVec2(room.x, height), False
 
 
-def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> None:
-    """Draw the findings, the verdict above all. Scroll them if they do not fit."""
+def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> str:
+    """Draw the findings, the verdict above all. Scroll them if they do not fit. Return the title of
+    the lecture's step whose link was clicked, or "".
+    """
+    title = ""
     if imgui.begin_child("told", room):
         left = imgui.get_content_region_avail()
         for number, line in enumerate(lines):
             with lettering(*_lettering(line, number, fonts)):
                 if line.role == "code":
                     wrapped(line.text)
+                elif line.role == "read":
+                    if imgui.text_link(line.text):
+                        title = line.text.removeprefix(READ).removesuffix(".")
                 else:
                     coded_text(line.text, left.x, _color(line.role), fonts)
     imgui.end_child()
+    return title
 
 
 def _lettering(line: ToldLine, number: int, fonts: Fonts) -> tuple[imgui.ImFont | None, float]:

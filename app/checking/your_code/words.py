@@ -11,6 +11,7 @@ import numpy as np
 
 from lucida.app.checking.checked import TaskResult
 from lucida.app.checking.kinds.kind import text_of
+from lucida.app.checking.mistakes.diagnosis import READ
 from lucida.app.checking.reports import VERDICTS
 from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask
@@ -18,7 +19,7 @@ from lucida.app.checking.your_code.model import CodeRays, CodeReport
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.system.errors import visible
 
-ToldRole = Literal["good", "bad", "text", "code", "dim"]
+ToldRole = Literal["good", "bad", "text", "code", "dim", "read"]
 HALTED = "It is not run again by itself"
 OUTPUT_LINES = 40  # last lines of the printed output
 
@@ -27,7 +28,7 @@ OUTPUT_LINES = 40  # last lines of the printed output
 class ToldLine:
     """A line of words.
 
-    role: its meaning, which determines its look.
+    role: its meaning, which determines its look. read: a link to the lecture's step that it names.
     code: in a fixed-width font.
     """
 
@@ -94,7 +95,7 @@ def _of_task(report: CodeReport, pixel: Pixel | None) -> Iterator[ToldLine]:
         if tried is None:
             yield ToldLine("dim", "looking for the reason ...")
         elif tried.diagnosis is not None:
-            yield from (ToldLine("text", sentence) for sentence in tried.diagnosis.sentences)
+            yield from map(_explained, tried.diagnosis.sentences)
     else:
         yield ToldLine("good", "Every ray is correct.")
         if result is not None and result.status != "right":
@@ -128,7 +129,11 @@ def _of_result(task: CheckTask, result: TaskResult | None) -> Iterator[ToldLine]
         yield ToldLine("good", f"{task.name}: correct in all of {result.cases} cases.")
     else:
         yield ToldLine("bad", f"{task.function} is wrong.")
-        yield from (ToldLine("text", line) for line in result.lines)
+        yield from map(_explained, result.lines)
+
+
+def _explained(sentence: str) -> ToldLine:
+    return ToldLine("read" if sentence.startswith(READ) else "text", sentence)
 
 
 def _of_output(report: CodeReport) -> Iterator[ToldLine]:

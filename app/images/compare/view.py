@@ -22,7 +22,6 @@ from lucida.app.images.renderers import Renderers
 from lucida.app.images.screen import Screen
 from lucida.app.images.shown import Picture, visible_size
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import Channel
 from lucida.app.ui import theme
 from lucida.app.ui.areas import focused_steps, mouse_area
 from lucida.app.ui.background import Background
@@ -31,6 +30,7 @@ from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.uploads import Uploads
 from lucida.renderer.compare.raster_and_ray import Comparison
+from lucida.renderer.images.frame import stored
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
 
@@ -160,7 +160,8 @@ class CompareView(ImageView):
         if verdict is None or waiting(both, state):
             return None
         comparison = verdict.comparison
-        self._work.ask(_made, comparison, state.images.channel, state.options.compare.gain)
+        channel = stored(state.images.channel)
+        self._work.ask(_made, comparison, channel, state.options.compare.gain)
         return made[1] if made is not None and made[0] is comparison else None
 
     def _placed(self, name: str, picture: Bytes, placement: Placement) -> moderngl.Texture:
@@ -233,7 +234,7 @@ def waiting(both: Renderers, state: AppState) -> str:
     return ""
 
 
-def _made(comparison: Comparison, channel: Channel, gain: float) -> tuple[Comparison, Bytes]:
+def _made(comparison: Comparison, channel: str, gain: float) -> tuple[Comparison, Bytes]:
     return comparison, comparison.false_color(channel, gain)
 
 

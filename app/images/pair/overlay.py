@@ -29,10 +29,10 @@ def draw_legend(
     """
     words: list[tuple[str, ImVec4]] = []
     channel, objects = state.images.channel, state.scene.visible
-    if channel == "depth" and depths is not None:
-        near, far = depths
+    if depths is not None:
+        letter, (near, far) = "z" if channel == "z" else "t", depths
         gray = ImVec4(FARTHEST_GRAY, FARTHEST_GRAY, FARTHEST_GRAY, 1)
-        words = [(f"t = {near:.4g}", theme.rgb("#ffffff")), (f"t = {far:.4g}", gray)]
+        words = [(f"{letter} = {near:.4g}", theme.rgb("#ffffff")), (f"{letter} = {far:.4g}", gray)]
     elif channel == "normal":
         words = [(axis, theme.rgb(color)) for axis, color in NORMAL]
     elif channel == "id":

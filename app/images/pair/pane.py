@@ -18,6 +18,7 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
+from lucida.renderer.images.frame import stored
 from lucida.renderer.system.errors import describe
 
 # Returns the visible part of a state's image in a window; None for no image.
@@ -53,7 +54,7 @@ def draw_pane(
     hovered: the pixel under the mouse, to be framed here. on_pixels: draws below everything else.
     """
     draw, state, fonts = imgui.get_window_draw_list(), host.state, host.fonts
-    depths = host.renderers.depths() if state.images.channel == "depth" else None
+    depths = host.renderers.depths() if stored(state.images.channel) == "depth" else None
     low, high = screen.visible
     picture = pane.picture(state, screen.placement)
     if picture is None:  # yet: no part of it may be taken for a black image

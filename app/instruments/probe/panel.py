@@ -15,7 +15,6 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from lucida.app.instruments.outside.growing import lit_in
 from lucida.app.instruments.probe.copying import (
     as_latex,
-    as_python,
     section_lines,
 )
 from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
@@ -68,17 +67,12 @@ def toolbar(
         state = state.with_options(replace(state.options.probe, pins=(*pins, pixel)))
     imgui.end_disabled()
     imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
-    follow(button_width("Copy ..."))
+    follow(button_width("Copy as LaTeX"))
     imgui.begin_disabled(reading is None)
-    if imgui.button("Copy ..."):
-        imgui.open_popup("copy")
+    if imgui.button("Copy as LaTeX") and reading is not None:
+        imgui.set_clipboard_text(as_latex(reading, indexing))
+        say("The pixel's ray is in the clipboard: LaTeX.")
     imgui.end_disabled()
-    if imgui.begin_popup("copy"):
-        for form, written in (("LaTeX", as_latex), ("Python", as_python)):
-            if imgui.menu_item_simple(form) and reading is not None:
-                imgui.set_clipboard_text(written(reading, indexing))
-                say(f"The pixel's ray is in the clipboard: {form}.")
-        imgui.end_popup()
     return state
 
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, is_dataclass, replace
 from typing import Any
 
 from lucida.app.state.bounds import OptionPart
+from lucida.app.state.options.camera import CameraOptions
 from lucida.app.state.options.compare import CompareOptions
 from lucida.app.state.options.costs import CostOptions
 from lucida.app.state.options.laboratory import LaboratoryOptions
@@ -30,6 +31,7 @@ from lucida.app.state.options.your_code import YourCodeOptions
 class Options(SharedOptions):
     """The shared options and each instrument's."""
 
+    camera: CameraOptions = field(default_factory=CameraOptions)
     photograph: PhotographOptions = field(default_factory=PhotographOptions)
     pair: PairOptions = field(default_factory=PairOptions)
     compare: CompareOptions = field(default_factory=CompareOptions)

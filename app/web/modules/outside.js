@@ -35,7 +35,8 @@ const EDGES = [[0, 1], [1, 3], [3, 2], [2, 0], [4, 5], [5, 7], [7, 6], [6, 4], [
 function outsideCamera(camera, scene) {
   const low = /** @type {Vec} */ (Array.from(scene.focus.subarray(0, 3))), high = /** @type {Vec} */ (Array.from(scene.focus.subarray(3, 6)));
   const middle = times(0.5, plus(low, high)), center = times(0.5, plus(middle, camera.eye));
-  const radius = Math.max(length(minus(high, low)) / 2.4, length(minus(camera.eye, middle)) / 1.8);
+  const tips = [camera.u, camera.v, camera.w].map((vector) => length(minus(plus(camera.eye, times(scene.arrow, vector)), center)));
+  const radius = Math.max(length(minus(high, low)) / 2.4, length(minus(camera.eye, middle)) / 1.8, ...tips);
   const w = normalized(plus(plus(times(0.8, normalized(camera.u)), [0, 0.55, 0]), times(0.45, normalized(camera.w))));
   const u = normalized(cross([0, 1, 0], w)), half = Math.tan(FOV / 2), aspect = WIDTH / HEIGHT;
   return {
@@ -192,9 +193,8 @@ function cameraLines({ camera, size, ray }, outside, scene, drawn) {
   }
   const basis = /** @type {[string, Vec][]} */ (drawn.basis === false ? [] : [["u", u], ["v", v], ["w", w]]);
   for (const [name, vector] of drawn.fails ? basis.slice(2) : basis) {
-    // A lecture's camera was found for vectors of their own length.
-    const tip = plus(eye, drawn.camera ? vector : times(0.15 * reach, normalized(vector)));
-    parts.push(worldLine(outside, eye, tip, `basis ${name}`), worldLabel(outside, tip, name, `label ${name}`));
+    const tip = plus(eye, times(scene.arrow, vector)), text = scene.arrow === 1 ? name : `${scene.arrow} ${name}`;
+    parts.push(worldLine(outside, eye, tip, `basis ${name}`), worldLabel(outside, tip, text, `label ${name}`));
   }
   if (ray && drawn.ray !== false) {
     const t = Number.isFinite(ray.t) ? ray.t : (1.5 * reach) / length(ray.direction), end = plus(ray.origin, times(t, ray.direction));

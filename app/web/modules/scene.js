@@ -8,6 +8,7 @@ import { TEXEL_BITS } from "./numbers.js";
  * @property {Record<string, [string, string]>} arrays type and base64 by name
  * @property {number[]} sphere_object
  * @property {{first: number, opacity: boolean, values: number[], png: string}[]} images
+ * @property {number} arrow the length of a unit vector's arrow in the outside view
  */
 /**
  * @typedef {object} Scene
@@ -33,6 +34,7 @@ import { TEXEL_BITS } from "./numbers.js";
  * @property {Float32Array} background
  * @property {Float64Array} bounds 6, around everything
  * @property {Float64Array} focus 6, around what a picture must contain: not a floor or a sky
+ * @property {number} arrow as packed
  */
 
 const ARRAY_TYPES = { Float32Array, Float64Array, Int32Array, Uint8Array };
@@ -63,6 +65,7 @@ async function unpack(packed) {
     scene.faceObject.fill(k, first, first + scene.objectFaces[2 * k + 1]);
   }
   scene.sphereObject = Int32Array.from(packed.sphere_object);
+  scene.arrow = packed.arrow;
   scene.texels = await texelsOf(packed.images);
   return scene;
 }

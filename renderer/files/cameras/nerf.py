@@ -22,11 +22,10 @@ from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import pixel_offset
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, FileLens, lens_of
+from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, lens_of
 from lucida.renderer.files.cameras.entries import (
     ORIGIN_TOLD,
     affine,
-    is_rotation,
     notes_on,
     number_of,
     size_of,
@@ -91,8 +90,6 @@ def read(given: Given, options: Options) -> CameraSet:
             raise error.within(f"frames[{i}]") if inside else error from None
     taken = ["transform_matrix takes the camera's points to the world"]
     taken += ["axes x right, y up, looking along -z (OpenGL)", ORIGIN_TOLD[origin]]
-    if not is_rotation(np.array([(c.camera.u, c.camera.v, c.camera.w) for c in cameras])):
-        taken.append("transform_matrix is no rotation, and held as it is")
     if any(map(_disagree, tables)):
         taken.append("fl_x is taken: camera_angle_x is another angle than fl_x and w make")
     notes = ["no w and h: a square image is taken"] * (cameras[0].size is None)
@@ -109,7 +106,7 @@ def _disagree(table: Table) -> bool:
     return not math.isclose(fx, table["fl_x"], rel_tol=0.01)
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     origin = options.pixel_origin or "corner"
     model, frames = _model_for(cameras), []
     for i, posed in enumerate(cameras):
@@ -123,7 +120,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
     own = [{name: frame[name] for name in frame if name not in shared} for frame in frames]
     is_fisheye = {"is_fisheye": True} if model == "OPENCV_FISHEYE" else {}  # for instant-ngp
     table = {"camera_model": model, **is_fisheye, **shared, "frames": own}
-    return {"": (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()}
+    return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
 
 
 def _image(name: object, folder: Path | None) -> str:
@@ -153,7 +150,7 @@ def _camera(table: Table, folder: Path | None, options: Options) -> PosedCamera:
         raise LucidaError("w", "is missing", "give w and h, or --size WxH")
     pixels = size or _ANY_SIZE
     K = _intrinsics(table, pixels, pixel_offset(options.pixel_origin or "corner"))
-    lens, ignored = _lens(table, options)
+    lens = _lens(table)
     try:
         with np.errstate(all="ignore"):
             pose = np.linalg.inv(world_from_camera)
@@ -165,7 +162,7 @@ def _camera(table: Table, folder: Path | None, options: Options) -> PosedCamera:
     except LucidaError as error:
         field = "fl_x" if error.field == "K" else "transform_matrix"
         raise LucidaError(field, error.problem, error.remedy) from None
-    return PosedCamera(camera, size, name.removeprefix("./"), image, ignored=ignored)
+    return PosedCamera(camera, size, name.removeprefix("./"), image)
 
 
 def _intrinsics(table: Table, size: Size, offset: float) -> Floats:
@@ -197,7 +194,7 @@ def _half_width(table: Table, name: str) -> float:
     return math.tan(angle / 2)
 
 
-def _lens(table: Table, options: Options) -> FileLens:
+def _lens(table: Table) -> Lens | None:
     given = table.get("camera_model", "")
     model = _MODELS.get(given) if isinstance(given, str) else None
     if model is None:
@@ -207,7 +204,7 @@ def _lens(table: Table, options: Options) -> FileLens:
         model = "fisheye"
     names = _FISHEYE if model == "fisheye" else _OPENCV
     found = {own: number_of(name, table[name]) for name, own in names.items() if name in table}
-    return lens_of(model, found, options)
+    return lens_of(model, found)
 
 
 def _model_for(cameras: Sequence[PosedCamera]) -> str:
@@ -230,8 +227,7 @@ def _coefficients(lens: Lens | None, model: str) -> dict[str, float]:
     for name, value in lens.coefficients.items():
         if value and name not in known.values():
             problem = f"{value:g} is a term that a transforms.json has not"
-            remedy = "leave it out, or give --ignore-distortion"
-            raise LucidaError(f"lens.{name}", problem, remedy)
+            raise LucidaError(f"lens.{name}", problem, "leave it out")
     return {written: lens.coefficient(name) for written, name in known.items()}
 
 

@@ -18,8 +18,7 @@ STRAIGHT = 1e-6  # a smaller cosine is float32's rounding: treated as a right an
 UNSEEN_PX = 0.01  # a change that moves no point of the image by more is rounding
 ANY_SIZE = (4096, 4096)  # assumed for an image of unknown size
 ROUNDED = 1e-4  # error of a rotation's numbers with four digits, or in float32
-# The command line replaces this remedy by its own.
-REMEDY = "orthonormalize it: Camera > Keep orthonormal, or camera.orthonormalized()"
+REMEDY = "make it orthonormal (Keep orthonormal, --up, orthonormalized()), or save a view file"
 
 
 def rigid(camera: Camera, target: str) -> Camera:

@@ -31,7 +31,6 @@ ARRANGEMENT = Arrangement(
     "Compare",
     ("Camera", "Raster"),
     {"Camera": ("Look at",)},
-    parts={"Lecture/RightSpace": 0.36},
 )
 
 

@@ -46,7 +46,7 @@ def transforms(folder):
         for x in (-2.0, 0.0, 1.0, 3.0)
     ]
     path = folder / "transforms.json"
-    path.write_bytes(written(posed, "nerf")[""])
+    path.write_bytes(written(posed, "nerf"))
     assert len(json.loads(path.read_text())["frames"]) == 4
     return path
 

@@ -13,8 +13,8 @@ from gltf_files import CORNERS
 from textured import noise, png, saved
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.editing.changing import table_of
-from lucida.renderer.editing.materials import own_material, set_material, set_single_sided
+from lucida.renderer.editing.changing import set_field, table_of
+from lucida.renderer.editing.materials import own_material, set_material
 from lucida.renderer.editing.outline import outline
 from lucida.renderer.files import load_scene, save_scene
 from lucida.renderer.files.export import export_scene
@@ -118,9 +118,11 @@ def test_backs_are_switched_of_models_and_shapes_alike(tmp_path: Path) -> None:
     scene = load_scene(tmp_path / "s.toml")
     items = [row.item for row in outline(scene) if row.item is not None and not row.is_light]
     assert flatten(scene).single_sided.tolist() == [1, 1, 0, 0]
-    seen = set_single_sided(scene, items[1:3], False)
+    seen = set_field(scene, items[1:2], "single_sided", False)
     assert flatten(seen).single_sided.tolist() == [1, 0, 0, 0]
-    hidden = set_single_sided(scene, items[1:], True)
+    hidden = set_material(
+        set_field(seen, items[1:2], "single_sided", True), items[2:], "single_sided", True
+    )
     assert flatten(hidden).single_sided.tolist() == [1, 1, 1, 1]
     assert "material" not in table_of(hidden, items[1])  # its materials are still the file's
     save_scene(tmp_path / "s.toml", hidden)

@@ -118,13 +118,15 @@ def test_without_processes_nothing_is_waited_for(children, monkeypatch, name, va
     assert children.notes == [name != "cache_folder"]
 
 
-def test_closing_a_tracer_ends_the_compiling_processes(children):
+def test_closing_a_tracer_ends_the_compiling_processes(children, monkeypatch):
+    monkeypatch.setattr(precompile.compile_note, "_progress", "")
     tracer = Tracer(Scene(()))
     job = tracer.start(Camera(), (5, 5))
     end_s = time.monotonic() + PATIENT_S
-    while not children.started and time.monotonic() < end_s:
+    while not precompile.compile_note.progress() and time.monotonic() < end_s:
         time.sleep(0.01)
     assert tracer.is_compiling
+    assert precompile.compile_note.progress().startswith("0 of ")
     tracer.close()
     assert not job.result().complete
     assert children.started

@@ -41,7 +41,7 @@ def check(job: Job) -> Checked:
 
 def _ours(job: Job) -> Measured:
     made = list(cases(job, straight_camera))
-    table = json.loads(written([case.posed for case in made], "nerf")[""])
+    table = json.loads(written([case.posed for case in made], "nerf"))
     errors = []
     for case, frame in zip(made, table["frames"], strict=True):
         found = {**table, **frame}

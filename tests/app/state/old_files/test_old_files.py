@@ -84,12 +84,13 @@ def test_a_lecture():
         assert step.views and set(step.views) <= {*VIEWS, "camera"}
 
 
-def test_a_session():
+def test_a_session(tmp_path):
     session = from_bytes((FOLDER / "session.json").read_bytes())
-    state = session.state(session.load_scene())
+    state = session.state(load_scene(session.source))
     assert state.view == VIEW
-    assert [entry.name for entry in state.scene.objects][1] == "renamed"
-    assert state.scene.objects[-1].name == "cone 2"
+    (tmp_path / "unsaved.toml").write_text(session.unsaved)
+    edited = load_scene(tmp_path / "unsaved.toml")
+    assert (edited.objects[1].name, edited.objects[-1].name) == ("renamed", "cone 2")
     options = state.options
     assert (options.marked, options.shadows, options.mirrors) == ((10, 20), True, True)
     assert options.one_based is False

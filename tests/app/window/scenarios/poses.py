@@ -40,7 +40,7 @@ def transforms(d, count=COUNT):
     """With photographs of all but the last one."""
     folder = d.folder / f"set{count}"
     (folder / "images").mkdir(parents=True, exist_ok=True)
-    table = json.loads(written(ring(count), "nerf")[""])
+    table = json.loads(written(ring(count), "nerf"))
     for k, frame in enumerate(table["frames"]):
         frame["file_path"] = f"./images/{k:03}.png"
         if k < min(count, COUNT) - 1:

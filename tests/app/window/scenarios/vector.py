@@ -58,8 +58,8 @@ def drive_images_and_formulas_are_figures_too(d):
     d.settle()
     choice = replace(_open(d).choice, size=(600, 200), ground="transparent")
     for what, least in (("pair", 0.3), ("raster", 0.2), ("probe", 0.001)):
-        content = encoder(d.window, replace(choice, what=what))(".png")
-        pixels = np.asarray(Image.open(io.BytesIO(content)))
+        made = d.in_draw_lists(lambda what=what: encoder(d.window, replace(choice, what=what)))
+        pixels = np.asarray(Image.open(io.BytesIO(made(".png"))))
         assert pixels.shape == (200, 600, 4)
         assert least < (pixels[..., 3] > 127).mean() < 0.9, what
         assert pixels[0, 0, 3] == 0
