@@ -182,18 +182,14 @@ class ImageView(Instrument):
 
     def _why_black(self, host: Host, screen: Screen) -> None:
         """Draw the note on a black image, with its button if there is one that helps."""
-        both, state, guest = host.renderers, host.state, self.linked.guest
+        both, state = host.renderers, host.state
         reason, verdict = both.why_black(state), both.verdict(state)
         if reason is None or verdict is None:
             return
-        offered = guest.remedy(state, reason.cause) if guest is not None else ""
-        if not dark_note(reason.text, offered or remedy_for(reason), screen):
+        if not dark_note(reason.text, remedy_for(reason), screen):
             return
         try:
-            if guest is not None and offered:
-                host.change(guest.remedied(state, offered))
-            else:
-                host.travel(helped(state, reason, verdict.darkness, host.focus))
+            host.travel(helped(state, reason, verdict.darkness, host.focus))
         except LucidaError as problem:
             host.files.message = str(problem)
 

@@ -155,7 +155,7 @@ def drive_pictures_show_what_the_window_shows(d):
     window = np.asarray(Image.open(next(shell.captures.folder.glob("*.png"))))
     assert window.shape == (SIZE[1], SIZE[0], 3)
     assert window.std() > 20
-    d.until(lambda: not shell.captures.busy)
+    d.until(lambda: not d.files.busy)
     d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
 
 
