@@ -24,6 +24,12 @@ INTERRUPTED = 128 + signal.SIGINT
 # Commands and options that left, and what to use instead.
 LEFT = {
     "install-desktop": "start lucida in a terminal",
+    "--enlargement": "Rasterizer.render(enlargement=4) in Python has it",
+    "--ignore-distortion": "--lens none takes a lens off, in `lucida camera` --no-lens",
+    "--time-limit": "a task file has it: seconds = 60",
+    "--memory-limit": "a task file has it: memory_mb = 2048",
+    "--show": "`lucida compare` marks the causes; the window's view Compare shows the difference",
+    "--photographs": "`lucida render --view SET --all` draws an image for each camera",
     "--undistort": "COLMAP's image_undistorter undistorts the photographs of a data set",
 }
 BROKEN_PIPE = 128 + 13  # SIGPIPE, which Windows does not have

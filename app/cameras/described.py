@@ -14,9 +14,7 @@ from lucida.app.cameras.basis import measures
 from lucida.app.cameras.other_words import of_any_size
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import CameraSet, PosedCamera, format_named
-from lucida.renderer.files.cameras.distortion import effect, shift_px
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import one_line
 
@@ -33,8 +31,10 @@ def facts(found: CameraSet, chosen: PosedCamera | None = None) -> list[Fact]:
     told += [("" if number else "taken", phrase) for number, phrase in enumerate(found.taken)]
     cameras = found.cameras if chosen is None else (chosen,)
     told += _of_all(found) if chosen is None else _of_one(chosen)
-    lenses = {"lens": lens_text(cameras), "distortion": lens_text(cameras, ignored=True)}
-    told += [(name, text) for name, text in lenses.items() if text]
+    lenses = [one.camera.lens for one in cameras if one.camera.lens is not None]
+    if lenses:
+        more = f", the first of {len(lenses)}" if len(lenses) > 1 else ""
+        told.append(("lens", f"{lenses[0]}{more}"))
     return [(name, one_line(text)) for name, text in told]
 
 
@@ -42,21 +42,6 @@ def as_text(told: Sequence[Fact]) -> str:
     """Return one line per fact, in two columns."""
     width = max(len(name) for name, _ in told) + 2
     return "\n".join(f"{name:{width}}{text}" for name, text in told)
-
-
-def lens_text(cameras: Sequence[PosedCamera], ignored: bool = False) -> str:
-    """Return the first lens, and its effect; "" if there is none.
-
-    ignored: among those that were left out when reading, instead of those that the cameras have.
-    """
-    lenses = [(one, one.ignored if ignored else one.camera.lens) for one in cameras]
-    found = [(one, lens) for one, lens in lenses if lens is not None]
-    if not found:
-        return ""
-    posed, lens = found[0]
-    told = f"{lens}{' ignored' if ignored else ''}: it moves "
-    told += effect(posed.camera, lens, posed.size)
-    return told if len(found) == 1 else f"{told}, the first of {len(found)}"
 
 
 def _of_all(found: CameraSet) -> list[Fact]:
@@ -79,7 +64,7 @@ def _of_one(posed: PosedCamera) -> list[Fact]:
     told = [
         (name, _text(value))
         for name, value in values.items()
-        if value not in (None, "", False) and name not in ("lens", "ignored")
+        if value not in (None, "", False) and name != "lens"
     ]
     if values["K"] is not None:
         told.append(("", "K, R and t count pixels from the centre of the first one"))
@@ -148,17 +133,8 @@ def _camera_data(posed: PosedCamera) -> dict[str, Any]:
         "fov_deg": None if camera.is_parallel else [camera.fov_x_deg, camera.fov_y_deg],
         "basis": basis_text(camera),
         **matrices,
-        "lens": _lens_data(posed, camera.lens),
-        "ignored": _lens_data(posed, posed.ignored),
+        "lens": camera.lens and {"model": camera.lens.model, **camera.lens.coefficients},
     }
-
-
-def _lens_data(posed: PosedCamera, lens: Lens | None) -> dict[str, Any] | None:
-    if lens is None:
-        return None
-    sizes = [None, None] if posed.size is None else shift_px(posed.camera, lens, posed.size)
-    moved = dict(zip(("median_px", "largest_px"), sizes, strict=True))
-    return {"model": lens.model, **moved, **lens.coefficients}
 
 
 def _size_text(size: Size | None) -> str:

@@ -21,20 +21,13 @@ from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 
 Form = Literal[
-    "view file", "Python", "OpenGL matrices", "OpenCV", "NeRF", "glTF"
+    "view file", "Python", "OpenGL matrices", "OpenCV", "glTF"
 ]  # fmt: skip
 FORMS: tuple[Form, ...] = get_args(Form)
 # Those of other programs, by the format's name.
 FORMATS_OF: dict[Form, str] = {
     "OpenCV": "opencv",
-    "NeRF": "nerf",
     "glTF": "gltf",
-}
-# What people call the formats, by their names.
-CALLED = {
-    **{name: str(form) for form, name in FORMATS_OF.items()},
-    "colmap": "COLMAP",
-    "opengl": "OpenGL matrices",
 }
 
 
@@ -60,7 +53,7 @@ def as_text(form: Form, subject: Subject) -> str:
         return python(subject.view)
     if form in FORMATS_OF:
         posed = PosedCamera(subject.shown, subject.size)
-        return written([posed], FORMATS_OF[form])[""].decode()
+        return written([posed], FORMATS_OF[form]).decode()
     if subject.shown.lens is not None:
         remedy = "take the lens off, or copy another form"
         raise LucidaError("lens", "is nothing that a matrix holds", remedy)

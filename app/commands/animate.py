@@ -15,7 +15,6 @@ from lucida.app.commands.render import check_effects
 from lucida.renderer.system.errors import LucidaError, counted, one_line
 
 if TYPE_CHECKING:
-    from lucida.app.cameras.films.paths import Key
     from lucida.renderer.camera.camera import Camera
     from lucida.renderer.scene.focus import Focus
     from lucida.renderer.scene.model import View
@@ -32,7 +31,6 @@ examples:
   lucida animate still-life --orbit -o orbit.mp4
   lucida animate spheres --dolly-zoom --seconds 3 -o vertigo.mp4
   lucida animate bunny.obj --path keys.toml -o frames --renderer ray --samples 16 --workers 4
-  lucida animate scene.toml --photographs transforms.json -o set.mp4
   lucida animate scene.toml --orbit -o orbit.mp4 --scheduler tcp://cluster:8786
 
 exit status: 0 written, 2 a mistake or a failure, 130 interrupted"""
@@ -55,9 +53,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     path.add_argument(
         "--path", metavar="KEYS", help="through the cameras of this file (docs/animation.md)"
-    )
-    path.add_argument(
-        "--photographs", metavar="SET", help="through a data set's cameras (see `lucida camera`)"
     )
     parser.add_argument(
         "--seconds",
@@ -118,8 +113,6 @@ def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Ca
         from lucida.app.cameras.films.key_file import load_keys
 
         keys = load_keys(arguments.path)
-    elif arguments.photographs is not None:
-        keys = _photographed(arguments)
     seconds = arguments.seconds or (sum(key.seconds for key in keys[:-1]) if keys else 4.0)
     count = arguments.frames or max(1, round(seconds * arguments.fps))
     if arguments.frames and arguments.seconds:
@@ -130,17 +123,3 @@ def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Ca
         return through(keys, focus, size, count)
     make = around if arguments.orbit else dolly_zoom
     return make(view, focus, size, count)
-
-
-def _photographed(arguments: argparse.Namespace) -> list[Key]:
-    """Return a key for each camera of a data set, a second apart."""
-    from lucida.app.cameras.films.paths import Key
-    from lucida.app.cameras.taken import is_fitted
-    from lucida.app.commands.given_camera import say_notes, source_of
-    from lucida.renderer.files.cameras import Options, read_cameras
-    from lucida.renderer.scene.model import View
-
-    options = Options(ignore_distortion=arguments.ignore_distortion)
-    found = read_cameras(source_of(arguments.photographs), options=options)
-    say_notes(found, arguments.photographs)
-    return [Key(View(posed.camera, is_fitted(posed)), 1.0, "constant") for posed in found.cameras]

@@ -9,14 +9,12 @@ import argparse
 import contextlib
 import re
 import sys
-import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from typing import TYPE_CHECKING, NoReturn
 
 from lucida.app.cameras.options import with_camera_options
 from lucida.app.commands.given_camera import say_changes, viewed
-from lucida.renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS, Indexing
+from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 if TYPE_CHECKING:
@@ -207,8 +205,6 @@ def scene_and_view(
     posed: the result of own_camera().
     """
     from lucida.renderer.files import load_scene
-    from lucida.renderer.files.cameras import PosedCamera
-    from lucida.renderer.files.cameras.distortion import without_lens
     from lucida.renderer.scene.model import View
 
     # Check for quick mistakes first.
@@ -222,25 +218,8 @@ def scene_and_view(
         print(f"lucida: {one_line(note)}", file=sys.stderr)
     if posed is not None:
         follows = arguments.viewport is not None or arguments.fit
-        say_changes([posed], None if follows else arguments.size)
-    view = view or with_camera_options(arguments, scene.view)
-    if arguments.ignore_distortion and view.camera.lens is not None:  # the scene's, or --lens
-        pinhole = without_lens(PosedCamera(view.camera, arguments.size))
-        say_changes([pinhole])
-        view = replace(view, camera=pinhole.camera)
-    return scene, view
-
-
-def add_lens_options(parser: argparse.ArgumentParser) -> None:
-    """Add how the rasterizer draws the image of a camera with a lens."""
-    parser.add_argument(
-        "--enlargement",
-        type=int,
-        choices=ENLARGEMENTS,
-        default=ENLARGEMENT,
-        help="pixels a side of the pinhole image, for each pixel of a lens's image\n"
-        "that looks up its primitive there (default: 2)",
-    )
+        say_changes(posed, None if follows else arguments.size)
+    return scene, view or with_camera_options(arguments, scene.view)
 
 
 def say_nothing_is_hit(scene: Scene, camera: Camera) -> None:
@@ -263,32 +242,26 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
     """
     from lucida.renderer.system import compile_note
 
-    start = time.monotonic()
     told = compile_note.note()  # on earlier compilation
-    with contextlib.ExitStack() as shown:
-        bar: tqdm[NoReturn] | None = None
+    bar = _bar(label) if sys.stderr.isatty() else None
 
-        def report(fraction: float) -> None:
-            nonlocal bar, told
-            if bar is None and sys.stderr.isatty() and time.monotonic() - start >= BAR_DELAY_S:
-                bar = shown.enter_context(_bar(label, start))
-            if compile_note.note() != told:
-                told = compile_note.note()
-                (bar.write if bar is not None else print)(f"lucida: {told}", file=sys.stderr)
-            if bar is not None:
-                bar.update(fraction - bar.n)
+    def report(fraction: float) -> None:
+        nonlocal told
+        if compile_note.note() != told:
+            told = compile_note.note()
+            (bar.write if bar is not None else print)(f"lucida: {told}", file=sys.stderr)
+        if bar is not None:
+            bar.update(fraction - bar.n)
 
+    with bar or contextlib.nullcontext():
         yield report
 
 
-def _bar(label: str, start: float) -> tqdm[NoReturn]:
-    """Return a bar that started at that time."""
-    from tqdm import tqdm  # imported here: most images need no bar
+def _bar(label: str) -> tqdm[NoReturn]:
+    from tqdm import tqdm
 
     layout = "{desc} {percentage:3.0f} % |{bar}| {elapsed}, {remaining} left"
-    bar: tqdm[NoReturn] = tqdm(total=1.0, desc=label, bar_format=layout, leave=False)
-    vars(bar)["start_t"] -= time.monotonic() - start
-    return bar
+    return tqdm(total=1.0, desc=label, bar_format=layout, leave=False, delay=BAR_DELAY_S)
 
 
 def _is_whole(text: str) -> bool:

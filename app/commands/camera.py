@@ -16,18 +16,14 @@ from typing import TYPE_CHECKING
 
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import (
-    add_distortion_option,
     say_changes,
     say_notes,
     source_of,
-    with_remedy,
 )
 from lucida.renderer.system.errors import LucidaError, counted, errors_as, one_line, visible
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from lucida.renderer.files.cameras import CameraSet, Options, PosedCamera
+    from lucida.renderer.files.cameras import CameraSet, PosedCamera
     from lucida.renderer.files.cameras.formats import Format
     from lucida.renderer.files.cameras.given import Given
 
@@ -38,9 +34,9 @@ Describe a camera of any format: eye, basis, viewport, d, fields of view, focal 
 point, and the conventions of its file. With --to or -o, write it in another format."""
 
 EPILOG = """\
-formats: view (Lucida's view file), opencv (also ROS, ORB-SLAM, VINS and Kalibr), colmap, nerf,
-gltf (for Blender, three.js and engines), opengl. docs/cameras.md says what each holds, and has the
-formulas.
+formats: view (Lucida's view file), opencv (also ROS, ORB-SLAM, VINS and Kalibr), gltf
+(for Blender, three.js and engines), opengl; colmap and nerf are only read. docs/cameras.md says
+what each holds, and has the formulas.
 
 If a file has several cameras, INPUT#12 or INPUT#IMG_7.jpg selects one.
 Otherwise all are written, if the format holds several, and none if it cannot hold one of them.
@@ -50,7 +46,7 @@ examples:
   lucida camera transforms.json                     what it holds
   lucida camera transforms.json#12                  one of its cameras, with all numbers
   lucida camera transforms.json#12 -o corner.toml
-  lucida camera sparse/0 --to nerf -o transforms.json
+  lucida camera sparse/0 -o cameras.gltf
   lucida camera corner.toml --to opencv --size 1280x720"""
 
 
@@ -65,9 +61,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="of INPUT (default: found by its name and content)",
     )
     parser.add_argument("--to", metavar="FORMAT", help="write the camera in this format")
-    parser.add_argument(
-        "-o", "--output", metavar="OUT", help="into this file or folder (default: print it)"
-    )
+    parser.add_argument("-o", "--output", metavar="OUT", help="into this file (default: print it)")
     parser.add_argument(
         "--size",
         type=common.size,
@@ -80,12 +74,14 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="the place of whole numbers in INPUT and OUT: pixels' centres (OpenCV)\n"
         "or corners, with centres at .5 (default: each format's own)",
     )
-    add_distortion_option(parser)
+    parser.add_argument("--no-lens", action="store_true", help="take a camera's lens off")
     parser.add_argument("--json", action="store_true", help="describe it as one JSON object")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.renderer.files.cameras import Options, read_chosen, save_files, without_choice
+    from lucida.renderer.files.cameras import Options, read_chosen, without_choice, written
+    from lucida.renderer.files.reading import naming
+    from lucida.renderer.system.atomic import atomic_write
 
     # Check for quick mistakes first.
     target = _target(arguments)
@@ -95,30 +91,26 @@ def run(arguments: argparse.Namespace) -> int:
     source = source_of(file)
     if arguments.output is not None:
         _check_is_another(arguments.output, source)
-    options = Options(
-        arguments.pixel_origin,
-        arguments.size,
-        arguments.ignore_distortion,
-        is_binary=(arguments.output or "").lower().endswith(".glb"),
-    )
+    options = Options(arguments.pixel_origin, arguments.size)
     found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
     own = found.cameras if chosen is None else (chosen,)
-    if arguments.size is not None:
-        found = replace(found, cameras=tuple(_sized(arguments, c) for c in found.cameras))
-        chosen = None if chosen is None else _sized(arguments, chosen)
+    found = replace(found, cameras=tuple(_changed(arguments, c) for c in found.cameras))
+    chosen = None if chosen is None else _changed(arguments, chosen)
     if target is None:
         print(_described(arguments, found, chosen))
         return 0
-    files = _written(found.cameras if chosen is None else (chosen,), target, options, source)
+    with naming(source.name):
+        data = written(found.cameras if chosen is None else (chosen,), target.name, options)
     if arguments.output is None:
-        text = files[""].decode()
+        text = data.decode()
         sys.stdout.write(visible(text) if sys.stdout.isatty() else text)
     else:
-        save_files(Path(arguments.output), files)
+        with atomic_write(arguments.output) as file:
+            file.write(data)
         told = counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
     say_notes(found, file)
-    say_changes(own, arguments.size)
+    say_changes(own[0], arguments.size)
     return 0
 
 
@@ -153,34 +145,22 @@ def _target(arguments: argparse.Namespace) -> Format | None:
         ending = Path(output).suffix.lower()
         names = [entry.name for entry in FORMATS if ending in entry.endings]
         if len(names) != 1:
-            names = names or [entry.name for entry in FORMATS]
+            names = names or [entry.name for entry in FORMATS if entry.endings]
             raise LucidaError("--to", "is missing", f"give one of {', '.join(names)}")
         return _format("--to", names[0])
     target = _format("--to", arguments.to)
-    if output is None:
-        if not any(target.endings):
-            raise LucidaError("-o", "is missing", f"{target.name} is a folder: give its name")
-    elif "" not in target.endings and Path(output).suffix.lower() not in target.endings:
+    with errors_as("--to"):
+        target.check_written()
+    if output is not None and Path(output).suffix.lower() not in target.endings:
         problem = f"{output!r} does not end as a file of {target.name} does"
         raise LucidaError("-o", problem, f"give {' or '.join(target.endings)}")
     return target
 
 
-def _sized(arguments: argparse.Namespace, posed: PosedCamera) -> PosedCamera:
-    return replace(posed, size=arguments.size)
-
-
-def _written(
-    cameras: Sequence[PosedCamera], target: Format, options: Options, source: Given
-) -> dict[str, bytes]:
-    """Return the files of a format. Raises LucidaError, which names INPUT."""
-    from lucida.renderer.files.cameras import written
-
-    try:
-        return written(cameras, target.name, options)
-    except LucidaError as error:
-        error = with_remedy(error, "write view, opencv or opengl, which hold any basis")
-        raise error if error.source else error.in_file(source.name) from None
+def _changed(arguments: argparse.Namespace, posed: PosedCamera) -> PosedCamera:
+    """Return a camera with the requested size, and without its lens if that was requested."""
+    camera = posed.camera.pinhole if arguments.no_lens else posed.camera
+    return replace(posed, camera=camera, size=arguments.size or posed.size)
 
 
 def _check_is_another(output: str, source: Given) -> None:

@@ -11,7 +11,6 @@ import json
 import os
 import sys
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -70,20 +69,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--task", metavar="NAME", help="this task alone")
     parser.add_argument(
         "--json", metavar="OUT", help="write the results as Gradescope reads them; -: print them"
-    )
-    parser.add_argument(
-        "--time-limit",
-        type=common.real(
-            lambda seconds: 0 < seconds <= 3600, "is not a time limit; give seconds up to 3600"
-        ),
-        metavar="SECONDS",
-        help="for each task (default: 20)",
-    )
-    parser.add_argument(
-        "--memory-limit",
-        type=common.whole(16, 1 << 20, "is not a memory limit; give MB, e.g. 1024"),
-        metavar="MB",
-        help="of the process (default: 1024)",
     )
     parser.add_argument(
         "--as",
@@ -161,10 +146,6 @@ def _asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
     tasks, limits = all_tasks(arguments.tasks)
     if arguments.task is not None:
         tasks = [named(tasks, arguments.task)]
-    if arguments.time_limit is not None:
-        limits = replace(limits, seconds=arguments.time_limit)
-    if arguments.memory_limit is not None:
-        limits = replace(limits, memory_mb=arguments.memory_limit)
     return tasks, limits
 
 

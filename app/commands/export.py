@@ -6,8 +6,8 @@ import argparse
 
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import add_view_option, with_remedy
-from lucida.renderer.system.errors import LucidaError, counted, one_line
+from lucida.app.commands.given_camera import add_view_option
+from lucida.renderer.system.errors import counted, one_line
 
 NAME = "export"
 
@@ -40,11 +40,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     check_export_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
-    try:
-        left_out = export_scene(arguments.output, scene, camera, arguments.size)
-    except LucidaError as error:
-        up = ",".join(f"{part:g}" for part in camera.v)
-        raise with_remedy(error, f"add --up={up}, which makes the basis orthonormal") from None
+    left_out = export_scene(arguments.output, scene, camera, arguments.size)
     counts = counted((len(scene.visible), "object"), (len(scene.lights), "light"))
     common.say(f"{one_line(arguments.output)}: {counts}", *(f"  {line}" for line in left_out))
     return 0

@@ -13,8 +13,6 @@ from typing import TYPE_CHECKING
 from lucida.renderer.system.errors import LucidaError, one_line
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from lucida.renderer.files.cameras import CameraSet, PosedCamera
     from lucida.renderer.files.cameras.given import Given
 
@@ -25,17 +23,11 @@ STANDARD_INPUT = "-"
 VIEW_HELP = """\
 take the camera from this file: a view file (.toml), or any other
 of `lucida camera`; of several: transforms.json#12, sparse/0#IMG_7.jpg"""
-IGNORE_HELP = "ignore a camera's lens; report what that changes"
 
 
-def add_view_option(parser: argparse.ArgumentParser, help: str = VIEW_HELP) -> None:
-    """Add --view, and the options that say how to read its file."""
-    parser.add_argument("--view", metavar="FILE", help=help)
-    add_distortion_option(parser)
-
-
-def add_distortion_option(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--ignore-distortion", action="store_true", help=IGNORE_HELP)
+def add_view_option(parser: argparse.ArgumentParser) -> None:
+    """Add --view."""
+    parser.add_argument("--view", metavar="FILE", help=VIEW_HELP)
 
 
 def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
@@ -45,11 +37,10 @@ def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
     """
     if arguments.view is None:
         return None
-    from lucida.renderer.files.cameras import Options, read_chosen, without_choice
+    from lucida.renderer.files.cameras import read_chosen, without_choice
 
     file, which = without_choice(arguments.view)
-    options = Options(ignore_distortion=arguments.ignore_distortion)
-    found, posed = read_chosen(source_of(file), which, options=options)
+    found, posed = read_chosen(source_of(file), which)
     say_notes(found, file)
     return posed
 
@@ -75,26 +66,11 @@ def source_of(file: str) -> Given:
     return Given(name, data)
 
 
-def with_remedy(error: LucidaError, remedy: str) -> LucidaError:
-    """Return an error about a basis that is not orthonormal with this remedy in place of the
-    window's; any other error unchanged.
+def say_changes(posed: PosedCamera, size: Size | None) -> None:
+    """Report on standard error an image whose aspect ratio is not the camera's own. size: of that
+    image.
     """
-    from lucida.renderer.files.cameras.rigid import REMEDY
-
-    if error.remedy != REMEDY:
-        return error
-    return LucidaError(error.field, error.problem, remedy, error.source)
-
-
-def say_changes(cameras: Sequence[PosedCamera], size: Size | None = None) -> None:
-    """Report changes on standard error, a line for each: an ignored lens with its effect, and an
-    image whose aspect ratio is not the camera's own. size: of that image.
-    """
-    from lucida.app.cameras.described import lens_text
-
-    if told := lens_text(cameras, ignored=True):
-        print(f"lucida: {one_line(told)}", file=sys.stderr)
-    own = cameras[0].size if cameras else None
+    own = posed.size
     if size is None or own is None or abs(size[0] - size[1] * own[0] / own[1]) <= 1:
         return
     shapes = f"{size[0]}x{size[1]} has another shape than the camera's own {own[0]}x{own[1]}"

@@ -4,18 +4,12 @@ from __future__ import annotations
 
 import argparse
 import json
-from typing import TYPE_CHECKING
 
 from lucida.app.cameras.options import add_camera_options
 from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import add_view_option
 from lucida.renderer.camera.pixels import Pixel
 from lucida.renderer.system.errors import LucidaError
-
-if TYPE_CHECKING:
-    from lucida.renderer.camera.camera import Camera
-    from lucida.renderer.images.frame import Frame
-    from lucida.renderer.scene.model import Scene
 
 NAME = "pick"
 
@@ -44,12 +38,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("column", type=_whole, metavar="COLUMN", help="and its column")
     common.add_from_option(parser)
     common.add_size_option(parser)
-    parser.add_argument(
-        "--renderer", choices=("raster", "ray"), default="ray", help="(default: ray)"
-    )
-    parser.add_argument(
-        "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
-    )
     add_view_option(parser)
     add_camera_options(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
@@ -57,13 +45,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from lucida.renderer.compare.pixel_report import as_text, picked
+    from lucida.renderer.trace import Tracer
 
     posed = common.own_camera(arguments)
     pixel = _pixel(arguments)
     scene, camera = common.scene_and_camera(arguments, posed)
-    frame = _drawn(scene, camera, arguments)
+    # The whole image, so that the pixel is the same as in a file.
+    with common.progress_bar("ray") as progress, Tracer(scene) as tracer:
+        frame = tracer.render(camera, arguments.size, progress=progress)
     seen = picked(scene, camera, frame, pixel, arguments.indexing)
-    seen["renderer"] = arguments.renderer
     print(json.dumps(seen, indent=2, allow_nan=False) if arguments.json else as_text(seen))
     return 0
 
@@ -81,20 +71,6 @@ def _pixel(arguments: argparse.Namespace) -> Pixel:
             raise LucidaError(name, problem, f"give {first} to {count + first - 1}")
     pixel: Pixel = arguments.indexing.pixel(arguments.row, arguments.column)
     return pixel
-
-
-def _drawn(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
-    """Render the whole image, so that the pixel is the same as in a file."""
-    with common.progress_bar(arguments.renderer) as progress:
-        if arguments.renderer == "raster":
-            from lucida.renderer.raster import Rasterizer
-
-            with Rasterizer(scene, backend=arguments.backend) as rasterizer:
-                return rasterizer.render(camera, arguments.size, progress=progress)
-        from lucida.renderer.trace import Tracer
-
-        with Tracer(scene) as tracer:
-            return tracer.render(camera, arguments.size, progress=progress)
 
 
 def _whole(text: str) -> int:

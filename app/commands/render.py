@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 from contextlib import closing
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lucida.app.cameras.options import add_camera_options
@@ -80,8 +79,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_view_option(parser)
     add_camera_options(parser)
     common.add_drawing_options(parser)
-
-    common.add_lens_options(parser)
     parser.add_argument(
         "--all",
         action="store_true",
@@ -156,8 +153,7 @@ def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
             from lucida.renderer.scene.precision import check_precision
 
             check_precision(camera, arguments.size, lambda: flatten(scene))
-        look = replace(look_of(arguments), enlargement=arguments.enlargement)
-        with closing(Drawing(scene, look)) as drawing:
+        with closing(Drawing(scene, look_of(arguments))) as drawing:
             return drawing.frame(Shot(camera, arguments.size), channels, progress)
 
 

@@ -13,11 +13,11 @@ from lucida.app.cameras.films.film import Film
 from lucida.app.cameras.films.frames import Look, Shot
 from lucida.app.cameras.options import with_camera_options
 from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import say_changes, say_notes, source_of
+from lucida.app.commands.given_camera import say_notes, source_of
 from lucida.app.commands.many import look_of, make_film
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.files.cameras import Options, PosedCamera, read_cameras
+from lucida.renderer.files.cameras import PosedCamera, read_cameras
 from lucida.renderer.images.frame import LARGEST_PIXELS, check_size, stored
 from lucida.renderer.scene import flatten
 from lucida.renderer.scene.model import Scene, View
@@ -57,8 +57,7 @@ def render_in_parts(
 
 
 def _look(arguments: argparse.Namespace, ending: str) -> Look:
-    look, channel = look_of(arguments), arguments.channel
-    return replace(look, channel=channel, ending=ending, enlargement=arguments.enlargement)
+    return replace(look_of(arguments), channel=arguments.channel, ending=ending)
 
 
 def render_all(arguments: argparse.Namespace) -> int:
@@ -66,11 +65,9 @@ def render_all(arguments: argparse.Namespace) -> int:
     if arguments.view is None:
         raise LucidaError("argument --all", "has no cameras", "give a data set by --view")
     start_s, given = time.perf_counter(), arguments.size
-    options = Options(ignore_distortion=arguments.ignore_distortion)
-    found = read_cameras(source_of(arguments.view), options=options)
+    found = read_cameras(source_of(arguments.view))
     scene, _ = common.scene_and_view(arguments, found.cameras[0])
     say_notes(found, arguments.view)
-    say_changes(found.cameras[1:])
     shots = []
     for posed in found.cameras:
         size = check_size(given or posed.size or common.DEFAULT_SIZE)

@@ -10,7 +10,7 @@ from pathlib import Path
 from lucida import __version__
 from lucida.app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
 from lucida.app.commands.arguments import SCENE_HELP, size
-from lucida.app.commands.given_camera import add_view_option, say_changes, viewed
+from lucida.app.commands.given_camera import add_view_option, viewed
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -98,7 +98,6 @@ def run(arguments: argparse.Namespace) -> int:
     from lucida.app.instruments.poses.model import PoseSet
     from lucida.app.instruments.poses.reading import open_cameras
     from lucida.app.window.kinds import found_code, kind_of
-    from lucida.renderer.files.cameras.given import Options
     from lucida.renderer.images import check_image_path
     from lucida.renderer.scene.model import View
 
@@ -115,19 +114,16 @@ def run(arguments: argparse.Namespace) -> int:
     elif source is not None and kind == "photograph":
         photograph, source = found_photograph(source), None
     elif source is not None and kind == "cameras":
-        options = Options(ignore_distortion=arguments.ignore_distortion)
-        found = open_cameras(source, options)
+        found = open_cameras(source)
         if isinstance(found, PoseSet):
             cameras = found
         else:
             view = found.view
-        say_changes(found.cameras if isinstance(found, PoseSet) else [found.posed])
         source = None
     elif source is not None:
         check_is_scene(source)
     posed = viewed(arguments)
     if posed is not None:
-        say_changes([posed])
         view = View(posed.camera, posed.fit)
     from lucida.app.window.launch import run_viewer  # loads the window: after the quick checks
 

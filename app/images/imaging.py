@@ -1,6 +1,6 @@
-"""The options of both images: channels, components, resolutions, magnifications.
+"""The options of both images: channels, resolutions, magnifications.
 
-Their names, and the changes of the state for menus, keys and strips.
+Their names, and the changes of the state for menus and keys.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import get_args
 
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import Channel, ImageOptions
+from lucida.app.state.options.shared import Channel
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError
 
@@ -49,9 +49,3 @@ def with_magnification(state: AppState, magnification: float | None) -> AppState
     """Magnify about the centre; None: show the whole image."""
     center = (0.5, 0.5) if magnification is None else state.images.center
     return state.with_options(replace(state.images, magnification=magnification, center=center))
-
-
-def resolution_text(options: ImageOptions) -> str:
-    """Return the name of a resolution, for the strip and the menu."""
-    many = f", {options.samples} samples" if options.samples > 1 else ""
-    return (size_text(options.resolution) if options.resolution else "Window") + many

@@ -19,7 +19,6 @@ from lucida.renderer.images.shared_numbers import FARTHEST_GRAY
 Bytes = NDArray[np.uint8]
 Depths = tuple[float, float] | None  # that are shown white and darkest
 
-_COMPONENTS = ("red", "green", "blue")
 DARK = 0.179  # of luminance: there black and white are as easy to read. Source: WCAG 2, contrast
 
 
@@ -28,14 +27,9 @@ def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes
     if stored(options.channel) == "depth":
         return np.repeat(_gray(values, depths)[..., None], 3, axis=2)
     if options.channel == "color":
-        shown = color_bytes(values, options)
-    else:
-        frame = Frame(values.shape[1::-1], **{options.channel: values})  # type: ignore[arg-type]
-        shown = picture(frame, options.channel)
-    if options.component == "rgb" or options.channel == "id":
-        return shown
-    index = _COMPONENTS.index(options.component)
-    return np.repeat(shown[..., index : index + 1], 3, axis=2)
+        return color_bytes(values, options)
+    frame = Frame(values.shape[1::-1], **{options.channel: values})  # type: ignore[arg-type]
+    return picture(frame, options.channel)
 
 
 def is_dark(shown: Bytes) -> NDArray[np.bool_]:
@@ -56,16 +50,12 @@ def value_lines(values: NDArray, options: ImageOptions) -> list[list[str]]:
         numbers, form = color_bytes(values, options), "{:3d}"
     else:
         numbers, form = values, "{:+.2f}"
-    if options.component != "rgb":
-        index = _COMPONENTS.index(options.component)
-        numbers = numbers[..., index : index + 1]
     return [["\n".join(map(form.format, pixel)) for pixel in row] for row in numbers.tolist()]
 
 
 def line_count(options: ImageOptions) -> int:
     """Return the number of lines that value_lines() writes for a pixel."""
-    several = options.channel in ("color", "normal") and options.component == "rgb"
-    return 3 if several else 1
+    return 3 if options.channel in ("color", "normal") else 1
 
 
 def color_bytes(values: NDArray, options: ImageOptions) -> Bytes:

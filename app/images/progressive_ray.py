@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from lucida.app.images.request import ImageRequest
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.coarseness import reduced
-from lucida.renderer.images.frame import CHANNELS, Frame, stored
+from lucida.renderer.images.frame import CHANNELS, Frame
 from lucida.renderer.images.samples import Progress, supersampled
 from lucida.renderer.scene.model import Scene
 
@@ -98,8 +98,7 @@ class LiveTrace:
     def request(self, request: ImageRequest, factor: int = 1) -> None:
         """Request an image, `factor` times coarser. Does nothing if that was requested last."""
         with self._changed:
-            newest = self._newest
-            if self._closed or ((request, factor) == newest and self._has_channel(request)):
+            if self._closed or (request, factor) == self._newest:
                 return
             self._newest = request, factor
             if self._cancels and self._job is not None:
@@ -214,8 +213,7 @@ class LiveTrace:
     def _trace(self, tracer: Tracer, wanted: Wanted) -> None:
         """Trace an image, unless a newer request comes that does not wait for it."""
         request, factor = wanted
-        channels = CHANNELS if factor == 1 else (stored(request.channel),)
-        job = tracer.start(request.camera, reduced(request.size, factor), channels)
+        job = tracer.start(request.camera, reduced(request.size, factor), CHANNELS)
         patience_s = FULL_PATIENCE_S if factor == 1 else COARSE_PATIENCE_S
         frame = self._finish(job, wanted, patience_s)
         with self._changed:
@@ -261,13 +259,6 @@ class LiveTrace:
                 if self._is_stale(wanted):
                     job.cancel()
         return job.result()
-
-    def _has_channel(self, request: ImageRequest) -> bool:
-        """Return True if the newest request's image has this request's channel, or will have it."""
-        newest = self._newest
-        if newest is None or newest[1] == 1:
-            return True
-        return stored(newest[0].channel) == stored(request.channel)
 
     def _is_stale(self, wanted: Wanted) -> bool:
         return self._closed or self._newest is not wanted

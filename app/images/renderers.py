@@ -403,6 +403,5 @@ def look_of(options: ImageOptions) -> Look:
         "depth" if options.channel == "z" else options.channel,
         options.exposure_ev,
         options.transfer,
-        options.component,
         options.dissolved,
     )

@@ -17,9 +17,9 @@ class ImageRequest:
     """Everything that an image depends on, for both renderers.
 
     size: (width, height) of the full image. shadows, mirrors: the ray image then shows what the
-    raster image cannot. channel: the visible one; coarse ray images have no other, so that they are
-    quick; a full image has all, and serves requests for any. samples: per pixel, of the colour in
-    the full ray image. enlargement: of the faces that a lens's raster image looks up.
+    raster image cannot. channel: the visible one, of those that each image has. samples: per pixel,
+    of the colour in the full ray image. enlargement: of the faces that a lens's raster image looks
+    up.
     """
 
     scene: Scene

@@ -112,8 +112,7 @@ class ImageTextures:
         name: str = PANE,
     ) -> Picture | None:
         """Return the visible part of the last ray image in a window; None if that has another
-        camera than the raster image, or lacks the channel, or if uploading it failed, see
-        ray_error.
+        camera than the raster image, or if uploading it failed, see ray_error.
         """
         image = self._ray
         if image is None or self._ray_failures >= ATTEMPTS:
@@ -121,8 +120,6 @@ class ImageTextures:
         if not image.is_beside(self._choice(request)[0]):
             return None
         try:
-            if getattr(image.frame, look.channel) is None:
-                return None  # coarse, and begun before the channel was selected
             source = self._upload(image, "z" if _shows_z(request, look) else look.channel)
             if look.channel == "depth" and not self.sees_raster:
                 self._measure(source)

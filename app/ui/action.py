@@ -1,4 +1,4 @@
-"""Actions: what a menu, a strip above an image or a key does."""
+"""Actions: what a menu or a key does."""
 
 from __future__ import annotations
 

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Protocol
 
 from imgui_bundle import ImVec2
 
-from lucida.app.state.app_state import AppState
 from lucida.renderer.camera.camera import Camera
 
 if TYPE_CHECKING:
@@ -60,15 +59,6 @@ class Guest(Protocol):
 
     def click(self, host: Host, shown: ShownIn, click: Click) -> None:
         """Handle a click that it wanted."""
-
-    def remedy(self, state: AppState, cause: str) -> str:
-        """Return the label of a button that helps if an image is black; "" for none.
-
-        cause: from renderer/compare/why_black.py.
-        """
-
-    def remedied(self, state: AppState, remedy: str) -> AppState:
-        """Return the state after that button. Raises LucidaError."""
 
     def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
         """Draw into the view's ImGui window. over: True if the mouse is over its picture."""

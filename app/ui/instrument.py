@@ -32,8 +32,6 @@ class Instrument:
     the main view.
     actions: for menus and keys, in the order of the menus.
     mouse, keyboard: further rows for the shortcut sheet.
-    heading: of its actions' keys on the sheet, if they work in its view only; if empty, they are
-    listed with the others of their menus.
     """
 
     name: ClassVar[str]
@@ -44,7 +42,6 @@ class Instrument:
     actions: ClassVar[tuple[Action, ...]] = ()
     mouse: ClassVar[tuple[tuple[str, str], ...]] = ()
     keyboard: ClassVar[tuple[tuple[str, str], ...]] = ()
-    heading: ClassVar[str] = ""
 
     def __init__(self, views: Sequence[Instrument] = ()) -> None:
         """Make the instrument.

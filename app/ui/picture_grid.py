@@ -40,14 +40,6 @@ class GridPicture:
     pixel: Pixel | None = None
 
 
-@dataclass(frozen=True)
-class GridAnswer:
-    """A click: the number of the picture, and its pixel."""
-
-    number: int
-    pixel: Pixel
-
-
 def columns_for(
     count: int,
     aspect: float,
@@ -79,9 +71,10 @@ def picture_grid(
     size: tuple[int, int],
     room: ImVec2,
     fonts: Fonts,
-) -> GridAnswer | None:
-    """Draw the pictures from the cursor on, in the room. size: (width, height) of the whole
-    grid.
+) -> Pixel | None:
+    """Draw the pictures from the cursor on, in the room. Return the clicked pixel, or None.
+
+    size: (width, height) of each picture, in pixels of its own.
     """
     em, gap = imgui.get_font_size(), GAP_EM * imgui.get_font_size()
     with lettering(fonts.bold):
@@ -105,8 +98,7 @@ def picture_grid(
             draw.add_text(at, theme.u32(theme.TEXT), fitting_words(picture.title, width))
         caption = fitting_words(picture.caption, width - titles[number])
         draw.add_text(at + ImVec2(titles[number], 0), theme.u32(theme.DIM), caption)
-        pixel = _picture(picture, size, at, extent, heading)
-        answer = answer if pixel is None else GridAnswer(number, pixel)
+        answer = _picture(picture, size, at, extent, heading) or answer
     imgui.set_cursor_screen_pos(corner)
     imgui.dummy((room.x, -(-len(pictures) // columns) * pitch.y - gap))
     return answer

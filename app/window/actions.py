@@ -13,8 +13,8 @@ from lucida.app.state.options.shared import Preferences, Theme
 from lucida.app.ui import layout
 from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.window import bookmarks
-from lucida.app.window.camera_files import CAMERA_FILES
 from lucida.app.window.documents import ABOUT, FIRST, GETTING_STARTED
+from lucida.app.window.exporting import ask_export
 from lucida.app.window.figure_box import ask_figure
 
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
@@ -90,8 +90,7 @@ FILE = (
         bookmarks.save_for_film,
         can=lambda w: len(w.state.options.bookmarks) > 1,
     ),
-    *CAMERA_FILES,
-    Action("File", "Export...", lambda w: w.shell.export_as(w), "Ctrl+E"),
+    Action("File", "Export...", ask_export, "Ctrl+E"),
     Action("File", "Export figure...", ask_figure, "Ctrl+Shift+E"),
     Action("File", "Save a picture of the window", lambda w: w.shell.picture(), "F12"),
 )

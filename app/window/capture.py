@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import datetime
 import os
-from collections.abc import Callable, Collection
 from pathlib import Path
 
 import numpy as np
 
-from lucida.app.ui.background import Background
 from lucida.app.ui.surface import Target
+from lucida.app.window.files import Files
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
 
@@ -18,62 +17,27 @@ Rect = tuple[float, float, float, float]  # left, top, right, bottom
 
 
 class Captures:
-    """Takes pictures while the window is open.
+    """Takes pictures of the window. wanted: the next frame is one.
 
-    wake: called on a thread when a picture has been saved.
-    folder: for pictures without a given path; None for the user's folder of pictures.
+    folder: for the pictures; None for the user's folder of pictures.
     """
 
-    def __init__(self, wake: Callable[[], None], folder: Path | None = None) -> None:
-        self._work: Background[str] = Background("lucida-capture", wake, every=True)
-        self._asked: Path | None = None
-        self._promised: set[Path] = set()  # to pictures that may not be written yet
-        self.folder = folder
-
-    @property
-    def busy(self) -> bool:
-        return self._asked is not None or self._work.busy
-
-    def ask(self, path: Path) -> None:
-        """Ask for a picture of the next frame, in a file."""
-        self._asked = path
-
-    def default_path(self) -> Path:
-        """Return a free name for a picture: lucida 2026-01-31 10.15.59.png. Raises LucidaError."""
-        folder = self.folder or pictures_folder()
-        now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
-        path = free_path(folder / f"lucida {now}.png", " ", self._promised)
-        self._promised.add(path)
-        return path
+    def __init__(self, files: Files) -> None:
+        self._files = files
+        self.folder: Path | None = None
+        self.wanted = False
 
     def after_drawing(self, target: Target) -> None:
-        """Take the requested picture. Call when the frame is drawn, before the swap."""
-        if self._asked is None:
-            return
-        path, self._asked = self._asked, None
-        pixels = target.read()
-        self._work.submit(lambda: _finish(pixels, path))
-
-    def poll(self) -> tuple[str, bool] | None:
-        """Return the result of the last picture: a message, and True if it was taken."""
-        outcome = self._work.poll()
-        if outcome is None:
-            return None
-        if outcome.error is not None:
-            return str(outcome.error), False
-        return outcome.value or "", True
-
-    def close(self) -> None:
-        self._work.close(5.0)
+        """Take the picture. Call when the frame is drawn, before the swap."""
+        if self.wanted:
+            self.wanted, pixels = False, target.read()
+            self._files.store(lambda: saved_picture(pixels, self.folder or pictures_folder()))
 
 
-def free_path(path: Path, before_number: str = "-", taken: Collection[Path] = ()) -> Path:
-    """Return the path, or the first free one with a number from 2 on: lucida.png, lucida-2.png.
-
-    taken: paths that will exist.
-    """
+def free_path(path: Path, before_number: str = "-") -> Path:
+    """Return the path, or the first free one with a number from 2 on: lucida.png, lucida-2.png."""
     found, number = path, 2
-    while os.path.lexists(found) or found in taken:
+    while os.path.lexists(found):
         found = path.with_name(f"{path.stem}{before_number}{number}{path.suffix}")
         number += 1
     return found
@@ -100,10 +64,15 @@ def cut(pixels: np.ndarray, rect: Rect) -> np.ndarray:
     return pixels[top : max(bottom, top + 1), left : max(right, left + 1)]
 
 
-def _finish(pixels: np.ndarray, path: Path) -> str:
-    """Encode the picture and put it in its place. Return a message."""
+def saved_picture(pixels: np.ndarray, folder: Path) -> str:
+    """Save a picture under a free name: lucida 2026-01-31 10.15.59.png. Return a message.
+
+    Raises LucidaError.
+    """
     from PIL import Image
 
+    now = datetime.datetime.now().strftime("%Y-%m-%d %H.%M.%S")
+    path = free_path(folder / f"lucida {now}.png", " ")
     with atomic_write(path) as file:
         Image.fromarray(pixels).save(file, format="PNG")
     return f"Saved {path} ({pixels.shape[1]} x {pixels.shape[0]})."

@@ -211,8 +211,10 @@ class Files:
         saved = self._saving.poll()
         if saved is not None and saved.error is not None:
             self.message = describe(saved.error)
+        elif saved is not None and "\n" in (text := saved.value or ""):
+            self.message = text  # to be read
         elif saved is not None:
-            self._said.append(saved.value or "")
+            self._said.append(text)
         return self._poll_loading() or self._poll_reread()
 
     def _poll_loading(self) -> Opened | None:
@@ -310,7 +312,13 @@ class Files:
 
         kind: as in ask_name(). store: stores it, and returns a message on what it did.
         """
-        self.ask_name(title, name, kind, lambda path: self._saving.submit(lambda: store(path)))
+        self.ask_name(title, name, kind, lambda path: self.store(lambda: store(path)))
+
+    def store(self, store: Callable[[], str]) -> None:
+        """Store something in the background. store: returns a message on what it did, of several
+        lines if it must be read.
+        """
+        self._saving.submit(store)
 
     def ask_name(
         self, title: str, name: str, kind: tuple[str, ...], named: Callable[[str], None]

@@ -5,14 +5,12 @@ It decides what Escape means.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from imgui_bundle import hello_imgui, imgui
+from imgui_bundle import imgui
 
 from lucida import __version__
-from lucida.app.cameras.camera_panel.actions import image_size
 from lucida.app.images.renderers import Renderers
 from lucida.app.instruments.objects.choosing import choose, chosen
 from lucida.app.lecture.view import LectureView
@@ -25,28 +23,23 @@ from lucida.app.ui.stage import Rect, Stage
 from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
-from lucida.app.web import ENDINGS as PAGES
 from lucida.app.window.capture import Captures
 from lucida.app.window.documents import Documents
-from lucida.app.window.exporting import Exports
 from lucida.app.window.files import Files
 from lucida.app.window.hints import Hints
 from lucida.app.window.platform import toggle_full_screen
 from lucida.app.window.proportion import Proportion
 from lucida.app.window.session_store import Keeper
 from lucida.app.window.shortcut_sheet import help_sheet
-from lucida.renderer.files.export import ENDINGS
-from lucida.renderer.system.atomic import file_stem
-from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.errors import describe
 
-EXPORTED = "glTF .glb, page .html"
 REDRAWN = 8  # frames after a change of the bars or of the views' places
 
 
 class Shell:
     """The shell of one window. keeper: saves the session; None if none is kept.
 
-    wake: asks for a frame, from any thread. folder: of the settings; None for none.
+    folder: of the settings; None for none.
     """
 
     def __init__(
@@ -54,15 +47,13 @@ class Shell:
         views: list[Instrument],
         files: Files,
         fonts: Fonts,
-        wake: Callable[[], None],
         keeper: Keeper | None = None,
         folder: Path | None = None,
     ) -> None:
         self.stage: Stage = Stage(views)
         self.proportion = Proportion()
         self.toasts = Toasts()
-        self.captures = Captures(wake)
-        self.exports = Exports()
+        self.captures = Captures(files)
         self.documents = Documents()
         self.hints = Hints(folder)
         self.files = files
@@ -75,11 +66,6 @@ class Shell:
         self._answered = ""  # the failure whose message was closed, in words
         self._division: tuple[bool, dict[str, Rect]] = False, {}  # of the last frame
         self._dividing = 0  # frames that are still requested for it
-
-    @property
-    def busy(self) -> bool:
-        """True if something is under way whose end will be reported."""
-        return self.captures.busy or self.exports.busy
 
     # What actions ask for.
 
@@ -104,25 +90,7 @@ class Shell:
 
     def picture(self) -> None:
         """Save a picture of the window, in the folder of pictures."""
-        try:
-            self.captures.ask(self.captures.default_path())
-        except LucidaError as error:
-            self.toasts.add(describe(error), good=False)
-
-    def export_as(self, host: Host) -> None:
-        """Export the scene and its camera, into a file that the user names."""
-        state, both = host.state, host.renderers
-        if self.exports.busy:
-            self.toasts.add(f"{self.exports.name} is still being written.", good=False)
-            return
-        camera, size = both.camera(state), image_size(host)
-        name = (file_stem(state.scene.name) or "scene") + ENDINGS[0]
-        self.files.ask_name(
-            f"Export the scene and its camera: {EXPORTED}",
-            name,
-            (EXPORTED, *ENDINGS, *PAGES),
-            lambda path: self.exports.begin(path, state.scene, camera, size),
-        )
+        self.captures.wanted = True
 
     def escape(self, window: Host) -> None:
         """Handle Escape: close what lies on top, end what takes long, make small what is large,
@@ -144,8 +112,6 @@ class Shell:
             window.box = None
         elif self.files.loading:
             self.files.cancel()
-        elif self.exports.busy:
-            self.exports.cancel()
         elif self.stage.maximised:
             self.stage.maximise()
         elif window.state.preferences.presentation:
@@ -167,13 +133,6 @@ class Shell:
         self._keep(window)
         for said in self.files.poll_said():
             self.toasts.add(said)
-        done = self.captures.poll()
-        if done is not None:
-            self.toasts.add(*done)
-        said, message = self.exports.poll()
-        if said:
-            self.toasts.add(said)
-        self.files.message = message or self.files.message
 
     def draw_until_divided(self, window: Host) -> None:
         """Request frames until bars and views have their places: each takes effect a frame later,
@@ -198,21 +157,13 @@ class Shell:
             self.help = help_sheet(self._fonts, __version__)
         self.documents.draw()
         self.files.dialog.draw()
-        self._waiting()
+        if self.files.loading and loading_box(
+            f"Loading {self.files.loading}", self.files.loading_s
+        ):
+            self.files.cancel()
         self._messages(window)
         self.toasts.draw()
         self._hide_cursor(typing or self.files.dialog.is_open)
-
-    def _waiting(self) -> None:
-        """Draw the progress of what takes long, one thing at a time."""
-        exports = self.exports
-        if self.files.loading:
-            if loading_box(f"Loading {self.files.loading}", self.files.loading_s):
-                self.files.cancel()
-        elif exports.name:
-            hello_imgui.request_refresh()
-            if loading_box(f"Exporting {exports.name}", exports.time_s):
-                exports.cancel()
 
     def _hide_cursor(self, asks: bool) -> None:
         """Hide the keyboard's cursor after the field that was typed into is gone.
@@ -237,8 +188,6 @@ class Shell:
 
     def end(self, window: Host, keeps_edits: bool = True) -> None:
         """Save the session, once, at the end. keeps_edits: with the scene's unsaved changes."""
-        self.captures.close()
-        self.exports.close()
         if self._keeper is not None:
             session = self._session(window)
             if session is not None and not keeps_edits:

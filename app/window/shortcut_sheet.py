@@ -37,14 +37,11 @@ MOVING: tuple[Row, ...] = (
 
 def sections() -> list[Part]:
     """Return the sheet's parts in their order."""
-    headings = {a: one.heading for one in INSTRUMENTS if one.heading for a in one.actions}
     parts: dict[str, list[Row]] = {"Mouse": list(MOUSE)}
     for action in ACTIONS:
         if action.keys:
-            # Of "Stepper: play and pause", the heading says the first part.
-            name = action.name.rpartition(": ")[2] if action in headings else action.name
-            heading = headings.get(action) or action.menu.split("/")[0]
-            parts.setdefault(heading, []).append((action.keys, name))
+            heading = action.menu.split("/")[0]
+            parts.setdefault(heading, []).append((action.keys, action.name))
     parts["Everywhere"] = list(MOVING)
     return [(heading, _folded(rows)) for heading, rows in parts.items()]
 

@@ -21,7 +21,7 @@ PixelOrigin = Literal["center", "corner"]
 Axes = Literal["opencv", "opengl"]
 
 SKEWED = 1e-9  # relative to fx: less is rounding
-IGNORE = "calibrate without, or give --ignore-distortion"
+IGNORE = "calibrate without"
 _OFFSET = {"center": 0.5, "corner": 0.0}
 _FLIP = np.diag([1.0, -1.0, -1.0])  # converts between y down, z forward and y up, z back
 

@@ -54,7 +54,7 @@ def as_rows(seen: dict[str, Any]) -> list[tuple[str, str]]:
     """Return the same as names and texts."""
     indexing, (width, height) = Indexing(seen["pixels_from"]), seen["size"]
     where = indexing.words(indexing.pixel(*seen["pixel"]))
-    lines = [("pixel", f"{where} of {width}x{height}, {indexing.told} ({seen['renderer']})")]
+    lines = [("pixel", f"{where} of {width}x{height}, {indexing.told}")]
     if seen["object"] is None:
         where = "the background" if seen["ray"] else "outside of the lens"
         lines.append(("object", f"none: {where}"))

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,9 +31,9 @@ from lucida.renderer.images.difference import (
     CAUSE_COLORS,
     SHADING_COLOR,
     UNEXPLAINED_COLOR,
+    difference,
     false_color,
     most,
-    signed_difference,
 )
 from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.images.frame import CHANNELS, Frame
@@ -52,29 +52,14 @@ MOST_EXAMINED = 1 << 20  # disagreeing pixels; more are not due to edges
 _NEGLIGIBLE = 1e-5  # a display value; smaller differences are not worth a closer look
 
 
-@dataclass(frozen=True)
-class ChannelError:
-    """The differences of one channel over the whole image, in difference.py's units.
-
-    largest, rms: of the finite ones. infinite: the number of non-finite ones: hit in one image
-    only, or not a number. differing: the number beyond the tolerance. worst: (row, column) of the
-    largest one, infinite ones first.
-    """
-
-    largest: float
-    rms: float
-    infinite: int
-    differing: int
-    worst: Pixel
-
-
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """Counts of pixels, the errors, and a label per pixel.
 
     explained: pixels by cause, see why_different.py. unexplained: all others.
     shading: the unexplained pixels of which only the colour differs. max_...: the largest errors
-    among the agreeing pixels. errors: by channel, over all pixels. labels: uint8 (height, width).
+    among the agreeing pixels. worst: (row, column) of the largest difference in colour, with
+    largest_color and rms_color over all pixels, as display values. labels: uint8 (height, width).
     times_s: each renderer's time. nothing_hit: the reason that neither image shows anything, so
     that nothing was compared; empty if something is hit. outside: pixels outside of the lens, which
     do not count.
@@ -88,7 +73,9 @@ class Comparison:
     max_depth_error: float
     max_normal_error: float
     max_color_error: float
-    errors: dict[str, ChannelError]
+    worst: Pixel
+    largest_color: float
+    rms_color: float
     times_s: dict[str, float]
     labels: NDArray[np.uint8]
     raster: Frame
@@ -111,11 +98,6 @@ class Comparison:
         """The number of pixels that do not agree, explained or not."""
         return self.pixels - self.agree
 
-    @property
-    def worst(self) -> Pixel:
-        """(row, column) of the largest colour difference."""
-        return self.errors["color"].worst
-
     def to_dict(self, indexing: Indexing = Indexing.ARRAY) -> dict[str, object]:
         """Return everything except the images, as plain numbers. indexing: the numbering of its
         pixels.
@@ -125,10 +107,6 @@ class Comparison:
             **{name: getattr(self, name) for name in _REPORTED},
             "pixels_from": indexing.value,
             "worst": list(indexing.numbers(self.worst)),
-            "errors": {
-                name: asdict(error) | {"worst": list(indexing.numbers(error.worst))}
-                for name, error in self.errors.items()
-            },
             "nothing_hit": self.nothing_hit or None,
             "times_s": dict(self.times_s),
         }
@@ -137,7 +115,6 @@ class Comparison:
         """Return a few lines for the command line. indexing: the numbering of its pixels."""
         width, height = self.size
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
-        color = self.errors["color"]
         return "\n".join(
             [
                 *([self.verdict()] if self.nothing_hit and not self.unexplained else []),
@@ -148,8 +125,9 @@ class Comparison:
                 + (f" ({self.shading} in the colour alone)" if self.shading else ""),
                 f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
                 f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
-                f"color everywhere: largest error {color.largest * 255:.1f}/255 "
-                f"at {indexing.words(self.worst)} ({indexing.told}), RMS {color.rms * 255:.3f}/255",
+                f"color everywhere: largest error {self.largest_color * 255:.1f}/255 "
+                f"at {indexing.words(self.worst)} ({indexing.told}), "
+                f"RMS {self.rms_color * 255:.3f}/255",
                 "raster {raster:.1f} ms, ray {ray:.1f} ms".format(
                     **{name: 1e3 * time for name, time in self.times_s.items()}
                 ),
@@ -180,19 +158,16 @@ class Comparison:
         image[marked] = LABEL_COLORS[self.labels[marked]]
         return image
 
-    def false_color(
-        self, channel: str = "color", gain: float = 1.0, signed: bool = False
-    ) -> NDArray[np.uint8]:
+    def false_color(self, channel: str = "color", gain: float = 1.0) -> NDArray[np.uint8]:
         """Return the difference of a channel as colours, uint8 (height, width, 3); see
         difference.py.
         """
-        difference = signed_difference(self.raster, self.ray, channel)
-        return false_color(difference, channel, gain, signed)
+        return false_color(difference(self.raster, self.ray, channel), channel, gain)
 
 
 _REPORTED = (
     *("pixels", "outside", "agree", "explained", "unexplained", "shading"),
-    *("max_depth_error", "max_normal_error", "max_color_error"),
+    *("max_depth_error", "max_normal_error", "max_color_error", "largest_color", "rms_color"),
 )
 
 
@@ -213,12 +188,10 @@ def compare(
     size: tuple[int, int],
     backend: str = "auto",
     progress: Callable[[float], None] | None = None,
-    enlargement: int = ENLARGEMENT,
 ) -> Comparison:
     """Render the scene with both renderers and compare. progress is called with fractions 0 to 1.
 
-    enlargement: of a lens's faces, see Rasterizer.draw(). Raises LucidaError for a camera that sees
-    too little or too much for float32.
+    Raises LucidaError for a camera that sees too little or too much for float32.
     """
     from lucida.renderer.raster import Rasterizer  # heavy, and not needed by compare_frames
     from lucida.renderer.trace import Tracer
@@ -226,10 +199,10 @@ def compare(
     flat = flatten(scene)
     check_precision(camera, size, lambda: flat)
     with Rasterizer(scene, backend=backend) as rasterizer:
-        raster = rasterizer.render(camera, size, channels=CHANNELS, enlargement=enlargement)
+        raster = rasterizer.render(camera, size, channels=CHANNELS)
     with Tracer(scene) as tracer:
         ray = tracer.render(camera, size, channels=CHANNELS, progress=progress)
-    return compare_frames(flat, camera, size, raster, ray, enlargement=enlargement)
+    return compare_frames(flat, camera, size, raster, ray, enlargement=ENLARGEMENT)
 
 
 def compare_frames(
@@ -263,6 +236,8 @@ def compare_frames(
         beyond = np.isnan(camera.lens_directions(size)[..., 0])
         outside = int(np.count_nonzero(beyond & agree))
     counts = np.bincount(labels.ravel(), minlength=256)
+    finite = color[np.isfinite(color)]
+    row, column = np.unravel_index(int(np.argmax(color)), color.shape)  # NaN counts as the largest
     return Comparison(
         size=size,
         agree=int(counts[AGREE]) - outside,
@@ -272,12 +247,11 @@ def compare_frames(
         max_depth_error=float(depth[agree].max(initial=0)),
         max_normal_error=float(normal[agree].max(initial=0)),
         max_color_error=float(color[agree].max(initial=0)),
-        errors={
-            "color": _channel_error(color, COLOR),
-            "depth": _channel_error(depth, DEPTH_RELATIVE),
-            "normal": _channel_error(normal, NORMAL),
-            "id": _channel_error(signed_difference(raster, ray, "id"), 0.0),
-        },
+        worst=(int(row), int(column)),
+        largest_color=float(finite.max(initial=0)),
+        rms_color=math.sqrt(float(np.square(finite, dtype=np.float64).mean()))
+        if len(finite)
+        else 0.0,
         times_s={"raster": raster.time_s, "ray": ray.time_s},
         labels=labels,
         raster=raster,
@@ -291,32 +265,14 @@ def _differences(
     raster: Frame, ray: Frame
 ) -> tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]]:
     """Return absolute differences of depth, normal and colour, float32 (height, width)."""
-    depth = np.abs(signed_difference(raster, ray, "depth"))
-    normal = np.abs(signed_difference(raster, ray, "normal"))
+    depth, normal = (difference(raster, ray, channel) for channel in ("depth", "normal"))
     color_a, color_b = raster.channel("color"), ray.channel("color")
     with np.errstate(invalid="ignore"):
-        color = np.abs(most(color_b - color_a)) * np.float32(SRGB_SLOPE)
+        color = most(color_b - color_a) * np.float32(SRGB_SLOPE)
     # The display transform is costly and shrinks most differences: use it only where needed.
     near = color > _NEGLIGIBLE
-    color[near] = np.abs(most(encode_srgb(color_b[near]) - encode_srgb(color_a[near])))
+    color[near] = most(encode_srgb(color_b[near]) - encode_srgb(color_a[near]))
     return depth, normal, color
-
-
-def _channel_error(difference: NDArray[np.float32], tolerance: float) -> ChannelError:
-    """Return the errors of a channel. difference: absolute, (height, width)."""
-    finite = np.isfinite(difference)
-    infinite = difference.size - int(np.count_nonzero(finite))
-    values = difference if not infinite else difference[finite]
-    squares = float(np.square(values, dtype=np.float64).mean()) if values.size else 0.0
-    # argmax treats NaN as the largest.
-    row, column = np.unravel_index(int(np.argmax(difference)), difference.shape)
-    return ChannelError(
-        largest=float(values.max(initial=0)),
-        rms=math.sqrt(squares),
-        infinite=infinite,
-        differing=int(np.count_nonzero(~(difference <= tolerance))),
-        worst=(int(row), int(column)),
-    )
 
 
 def _pixels(count: int, kind: str = "") -> str:

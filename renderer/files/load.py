@@ -57,8 +57,8 @@ def load_scene(source: str | Path) -> Scene:
         problem = f"ends in {ending!r}" if ending else "has no ending"
         raise LucidaError("", problem, f"give {endings}", str(path))
     if ending or path.parent != Path():
-        problem, remedy = absence(path)
-        raise LucidaError("", problem, f"{remedy}; scenes are {endings}", str(path))
+        remedy = f"check its name and folder; scenes are {endings}"
+        raise LucidaError("", absence(path), remedy, str(path))
     problem = f"{str(source)[:80]!r} is neither a built-in scene nor a file"
     remedy = f"{suggestion(str(source), BUILTIN_SCENES)} or {endings}"
     raise LucidaError("scene", problem, remedy)

@@ -13,7 +13,6 @@ from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.file_dependencies import note
 
 MODEL_ENDINGS = (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
-ALIKE = 0.85  # wall_normal.png is not wall_color.png
 
 
 @contextlib.contextmanager
@@ -79,8 +78,7 @@ def check_file(path: Path) -> int:
     try:
         status = path.stat()
     except FileNotFoundError:
-        problem, remedy = absence(path)
-        raise LucidaError("", problem, remedy, source) from None
+        raise LucidaError("", absence(path), "check its name and folder", source) from None
     except (OSError, ValueError) as error:
         raise _unreadable(path, error) from None
     if stat.S_ISDIR(status.st_mode):
@@ -139,34 +137,19 @@ def suggestion(given: str, known: Iterable[str]) -> str:
     return f"did you mean {close[0]!r}?" if close else f"give one of {', '.join(known)}"
 
 
-def close_matches(given: str, known: Iterable[str], least: float = 0.6) -> list[str]:
-    """Return the known name that is most alike, whatever its case, if its likeness is at least that
-    much of 1."""
+def close_matches(given: str, known: Iterable[str]) -> list[str]:
+    """Return the known name that is most alike, whatever its case; none if no name is."""
     names = {name.lower(): name for name in reversed(list(known))}
-    return [names[name] for name in difflib.get_close_matches(given.lower(), names, 1, least)]
+    return [names[name] for name in difflib.get_close_matches(given.lower(), names, 1)]
 
 
-def absence(path: Path) -> tuple[str, str]:
-    """Return the problem and the remedy of a missing file: where it was looked for, and a file of a
-    similar name."""
+def absence(path: Path) -> str:
+    """Return the problem of a missing file: where it was looked for."""
     problem = "does not exist"
     with contextlib.suppress(OSError, ValueError):
         if not path.is_absolute():
             problem += f" in {os.path.abspath(path.parent)}"
-    return problem, _neighbours(path)
-
-
-def _neighbours(path: Path) -> str:
-    """Return the remedy for a missing file: the file of its kind that has a similar name."""
-    ending = path.suffix.lower()
-    try:
-        with os.scandir(path.parent) as entries:
-            names = [entry.name for entry, _ in zip(entries, range(10_000), strict=False)]
-    except (OSError, ValueError):
-        return "check its name and folder"
-    same_kind = [name for name in names if os.path.splitext(name)[1].lower() == ending]
-    close = close_matches(path.name[:255], same_kind, ALIKE)
-    return f"did you mean {str(path.with_name(close[0]))!r}?" if close else "check its name"
+    return problem
 
 
 def size_text(size_bytes: int) -> str:

@@ -1,12 +1,10 @@
 """The difference of two images in one channel, as numbers and as false colours.
 
-This module defines the difference in each channel, the two colour maps, and the causes' colours.
-compare.py finds the causes.
-
-The difference is ray minus raster, positive if the ray image's value is larger:
+This module defines the difference in each channel, its colour map, and the causes' colours.
+raster_and_ray.py finds the causes.
 
     color   display values (sRGB, 0 to 1, exposure 0) of the colour channel that differs most
-    depth   the ray parameter's difference, relative to the ray image's; infinite if one misses
+    depth   the ray parameters' difference, relative to the ray image's; infinite if one misses
     normal  the component that differs most
     id      1 if the objects differ, else 0
 """
@@ -24,7 +22,7 @@ Floats32 = NDArray[np.float32]
 
 FULL_SCALE = {"color": 1.0, "depth": 1.0, "normal": 2.0, "id": 1.0}  # at gain 1
 LARGEST_GAIN = 1024.0
-STEPS = 511  # colours of a map; odd, so that the signed map has a middle
+STEPS = 511  # colours of the map
 
 UNEXPLAINED_COLOR = (255, 94, 0)
 SHADING_COLOR = (238, 51, 119)
@@ -47,19 +45,6 @@ _ABSOLUTE = (
     (249, 201, 50),
     (255, 255, 255),
 )
-# Blue, white, orange: distinct for every kind of colour blindness; both halves equally dark.
-# After ColorBrewer's Blues and Oranges (Brewer).
-_SIGNED = (
-    (8, 48, 107),
-    (33, 102, 172),
-    (67, 147, 195),
-    (146, 197, 222),
-    (255, 255, 255),
-    (253, 190, 122),
-    (241, 136, 43),
-    (204, 85, 0),
-    (122, 46, 4),
-)
 
 
 def _colors(stops: tuple[tuple[int, int, int], ...]) -> Bytes:
@@ -69,11 +54,10 @@ def _colors(stops: tuple[tuple[int, int, int], ...]) -> Bytes:
 
 
 ABSOLUTE_COLORS = _colors(_ABSOLUTE)  # uint8 (STEPS, 3), sRGB: no difference to full scale
-SIGNED_COLORS = _colors(_SIGNED)  # raster larger, no difference, ray larger
 
 
-def signed_difference(raster: Frame, ray: Frame, channel: str = "color") -> Floats32:
-    """Return ray minus raster in a channel, float32 (height, width); see the head of this file.
+def difference(raster: Frame, ray: Frame, channel: str = "color") -> Floats32:
+    """Return how much a channel differs, float32 (height, width); see the head of this file.
 
     NaN if one image has NaN. Raises LucidaError if a frame lacks the channel.
     """
@@ -84,38 +68,28 @@ def signed_difference(raster: Frame, ray: Frame, channel: str = "color") -> Floa
         if channel == "depth":
             missed = np.isposinf(first) & np.isposinf(second)
             by = np.where(np.isposinf(second), np.float32(1), second)
-            return np.where(missed, np.float32(0), (second - first) / by)
+            return np.where(missed, np.float32(0), np.abs((second - first) / by))
         if channel == "color":
             unusable = np.isnan(first) | np.isnan(second)
-            difference = encode_srgb(second) - encode_srgb(first)
-            difference[unusable] = np.nan
-            return most(difference)
+            shown = encode_srgb(second) - encode_srgb(first)
+            shown[unusable] = np.nan
+            return most(shown)
         return most(second - first)
 
 
 def most(vectors: Floats32) -> Floats32:
-    """Return for each vector (..., 3) the component with the largest absolute value, with
-    its sign.
-    """
-    # Not vectors.min(axis=-1), which reduces three numbers at a time and takes ten times as long.
-    x, y, z = vectors[..., 0], vectors[..., 1], vectors[..., 2]
-    low = np.minimum(np.minimum(x, y), z)  # NaN if any is NaN
-    high = np.maximum(np.maximum(x, y), z)
-    return np.where(high >= -low, high, low)
+    """Return for each vector (..., 3) its component's largest absolute value."""
+    # Not vectors.max(axis=-1), which reduces three numbers at a time and takes ten times as long.
+    x, y, z = (np.abs(vectors[..., axis]) for axis in range(3))
+    return np.maximum(np.maximum(x, y), z)  # NaN if any is NaN
 
 
-def false_color(
-    difference: Floats32, channel: str, gain: float = 1.0, signed: bool = False
-) -> Bytes:
+def false_color(values: Floats32, channel: str, gain: float = 1.0) -> Bytes:
     """Return differences as colours, uint8 (..., 3): full scale is FULL_SCALE[channel] / gain.
 
     Values beyond it, and NaN, get the last colour.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        scaled = np.asarray(difference, np.float32) * np.float32(gain / FULL_SCALE[channel])
-    scaled = np.clip(np.where(np.isnan(scaled), np.float32(1), scaled), -1, 1)
-    # The difference of numbers without an order has no sign.
-    signed = signed and channel != "id"
-    part = np.float32(0.5) * scaled + np.float32(0.5) if signed else np.abs(scaled)
-    index = (part * np.float32(STEPS - 1) + np.float32(0.5)).astype(np.intp)
-    return (SIGNED_COLORS if signed else ABSOLUTE_COLORS)[index]
+        scaled = np.asarray(values, np.float32) * np.float32(gain / FULL_SCALE[channel])
+    scaled = np.clip(np.where(np.isnan(scaled), np.float32(1), scaled), 0, 1)
+    return ABSOLUTE_COLORS[(scaled * np.float32(STEPS - 1) + np.float32(0.5)).astype(np.intp)]

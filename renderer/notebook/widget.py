@@ -274,7 +274,7 @@ class Explorer(anywidget.AnyWidget):
         kind = "image/jpeg" if moving else "image/png"
         answer |= self._numbers() | {"type": kind, "factor": factor, "full": not moving}
         if factor == 1 and self.pixel is not None:
-            answer["hit"] = as_rows({**(self.hit or {}), "renderer": "ray"})
+            answer["hit"] = as_rows(self.hit or {})
         self.send(answer, [file.getvalue()])
 
     def _trace(self, factor: int, patience_s: float | None) -> bool:

@@ -16,22 +16,19 @@ from lucida.renderer.raster.resources import Owner, new_texture
 from lucida.renderer.raster.screen_pass import cover, new_array, plain_state, set_uniforms
 
 SQUARES = 32
-COMPONENTS = {"rgb": -1, "red": 0, "green": 1, "blue": 2}
 
 
 @dataclass(frozen=True)
 class Look:
-    """The appearance of an image. channel, component: the part that is shown.
+    """The appearance of an image.
 
-    exposure_ev, transfer: of the colour. A single component is gray. dissolved: 0 to 1, how far the
-    image has dissolved into flat squares, each with the value of its middle, until there are
-    SQUARES of them in a row.
+    exposure_ev, transfer: of the colour. dissolved: 0 to 1, how far the image has dissolved into
+    flat squares, each with the value of its middle, until there are SQUARES of them in a row.
     """
 
     channel: Literal["color", "depth", "normal", "id"] = "color"
     exposure_ev: float = 0.0
     transfer: Literal["srgb", "linear"] = "srgb"
-    component: Literal["rgb", "red", "green", "blue"] = "rgb"
     dissolved: float = 0.0
 
 
@@ -81,7 +78,6 @@ class Display:
             cover(
                 self._screen_of(look, section),
                 exposure=exposure_factor(look.exposure_ev),
-                component=COMPONENTS[look.component],
                 origin=section.origin,
                 texels_per_pixel=section.texels_per_pixel,
                 square=max(1.0, source.width / SQUARES) ** look.dissolved,
@@ -94,13 +90,11 @@ class Display:
         """Return a program specialised for this look, compiled on first use: a quarter of the time
         of a general one.
         """
-        has_components = look.channel in ("color", "normal")
         constants = {
             "SHOWS_COLOR": look.channel == "color",
             "SHOWS_DEPTH": look.channel == "depth",
             "SHOWS_NORMAL": look.channel == "normal",
             "IS_LINEAR": look.channel == "color" and look.transfer == "linear",
-            "IS_WHOLE": look.component == "rgb" or not has_components,
             "AVERAGED": section.averaged and not look.dissolved,
         }
         key = tuple(constants.values())

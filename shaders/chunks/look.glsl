@@ -1,6 +1,6 @@
 // What one pixel of an image looks like: the display transform of its colour, or false colours of
 // its other channels, as in renderer/images/display.py; numbers: renderer/shared_numbers.py.
-// SHOWS_COLOR, SHOWS_DEPTH, SHOWS_NORMAL (none: object numbers), IS_LINEAR, IS_WHOLE: constants that
+// SHOWS_COLOR, SHOWS_DEPTH, SHOWS_NORMAL (none: object numbers), IS_LINEAR: constants that
 // are put in above (renderer/raster/display.py): software OpenGL works out every branch of the rest.
 
 #include "chunks/color.glsl"
@@ -9,7 +9,6 @@ uniform sampler2D values;       // colour: linear light; depth: in w; normal
 uniform isampler2D numbers;     // objects, -1: none
 uniform sampler2D depth_range;  // one pixel: the nearest and the farthest hit
 uniform float exposure;         // a factor
-uniform int component;          // the only one that is shown
 
 vec3 exposed(vec3 light) {
     vec3 result = clamp(exposure * light, 0.0, 1.0);
@@ -37,9 +36,5 @@ vec3 seen(ivec2 texel) {
 }
 
 vec3 encoded(vec3 value) {
-    vec3 shown = SHOWS_COLOR && !IS_LINEAR ? srgb_from_linear(value) : value;
-    if (IS_WHOLE) {
-        return shown;
-    }
-    return vec3(dot(vec3(component == 0, component == 1, component == 2), shown));
+    return SHOWS_COLOR && !IS_LINEAR ? srgb_from_linear(value) : value;
 }

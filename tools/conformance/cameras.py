@@ -43,7 +43,7 @@ class Case:
 
     def file(self, format: str, options: Options | None = None) -> bytes:
         """This camera as a format's file."""
-        return written([self.posed], format, options)[""]
+        return written([self.posed], format, options)
 
 
 MakeCamera = Callable[[np.random.Generator, str], Camera]

@@ -14,7 +14,6 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.pixels import ENLARGEMENT
 from lucida.renderer.images import encode_image
 from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.scene.model import Scene
@@ -48,7 +47,6 @@ class Look:
     threads: int | None = None
     channel: str = "color"
     ending: str = ".png"
-    enlargement: int = ENLARGEMENT
 
 
 class Drawing:
@@ -83,14 +81,13 @@ class Drawing:
         progress: Callable[[float], None] | None = None,
     ) -> Frame:
         """Draw channels of a picture. progress is called with fractions 0 to 1."""
-        look, camera, size, samples = self.look, shot.camera, shot.size, self.look.samples
-        if look.renderer == "ray":
+        camera, size, samples = shot.camera, shot.size, self.look.samples
+        if self.look.renderer == "ray":
             return self._tracer.render(camera, size, channels, samples, progress, shot.rows)
         if shot.rows is not None:
             camera = camera.cropped(shot.rows, size)
             size = size[0], shot.rows[1] - shot.rows[0]
-        given = camera, size, channels, samples, progress, look.enlargement
-        return self._rasterizer.render(*given)
+        return self._rasterizer.render(camera, size, channels, samples, progress)
 
 
 def with_z(frame: Frame, camera: Camera) -> Frame:

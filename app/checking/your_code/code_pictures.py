@@ -141,13 +141,13 @@ class PicturesShown:
             GridPicture("difference", "difference", difference, pictures.told, pixel=pixel),
         ]
         try:
-            answer = picture_grid(grid, pictures.size, room, host.fonts)
+            clicked = picture_grid(grid, pictures.size, room, host.fonts)
         except LucidaError as error:
             imgui.text_colored(theme.ERROR, describe(error))
             return
-        if answer is not None and rays is not None and is_of_rays:
-            again = host.state.marked is not None and answer.pixel == marked
-            found = canvas_pixel(answer.pixel, rays.camera, rays.size, *_images(host))
+        if clicked is not None and rays is not None and is_of_rays:
+            again = host.state.marked is not None and clicked == marked
+            found = canvas_pixel(clicked, rays.camera, rays.size, *_images(host))
             options = replace(host.state.options, marked=None if again else found)
             host.change(host.state.with_options(options))
 

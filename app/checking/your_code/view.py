@@ -39,7 +39,6 @@ from lucida.app.lecture.view import LectureView
 from lucida.app.state.options.shared import Pixel
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui import layout, theme
-from lucida.app.ui.action import Action
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.messages import wrapped
@@ -51,16 +50,6 @@ from lucida.renderer.system.memo import Memo
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"
-MENU = "File/Your code"
-
-
-def _ask(wish: CodeWish, host: Host) -> None:
-    host.show_in(YOUR_CODE, layout.LOOPS)
-    host.view(YourCode).ask(wish)
-
-
-def _has_file(host: Host) -> bool:
-    return bool(host.state.options.your_code.file)
 
 
 class YourCode(Instrument):
@@ -68,14 +57,6 @@ class YourCode(Instrument):
 
     name = YOUR_CODE
     title = "Your code"
-    actions = (
-        Action(MENU, "Open Python code...", lambda host: _ask("open", host)),
-        Action(MENU, "Write code to begin with...", lambda host: _ask("starter", host)),
-        Action(
-            MENU, "Run your code", lambda host: _ask("run", host), can=_has_file, separated=True
-        ),
-        Action(MENU, "Edit your code", lambda host: _ask("edit", host), can=_has_file),
-    )
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)
@@ -89,7 +70,6 @@ class YourCode(Instrument):
         self._items = Memo(_outside_items)
         self.seen = False
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
-        self._asked: CodeWish = ""
         self.told: list[ToldLine] = []
         self._words = Memo(told_of)
 
@@ -111,10 +91,6 @@ class YourCode(Instrument):
         if host.state.options.your_code.file != options.file:
             host.change(host.state.with_options(options))
         host.show_in(YOUR_CODE, layout.LOOPS)
-
-    def ask(self, wish: CodeWish) -> None:
-        """Ask for what a button would do, in the next frame."""
-        self._asked = wish
 
     @property
     def settled(self) -> bool:
@@ -154,8 +130,7 @@ class YourCode(Instrument):
         else:
             self._rest()
             wish = self._untrusted(host, path) if path else panel.invitation(host.fonts)
-        self._grant(host, self._asked or wish, path)
-        self._asked = ""
+        self._grant(host, wish, path)
 
     def _rest(self) -> None:
         """Run nothing, and show nothing of earlier runs."""

@@ -1,7 +1,6 @@
 """The actions of the menu "Image": what both images show, how large, how magnified.
 
-Their keys are Alt and a letter or digit, as far as they have any. The strips above the images offer
-some of them too.
+Their keys are Alt and a letter or digit, as far as they have any.
 """
 
 from __future__ import annotations
@@ -69,24 +68,11 @@ def _magnification(factor: float | None, name: str, keys: str, tip: str) -> Acti
     )
 
 
-SHOWN_CHANNEL = tuple(
-    choosing("Image/Channel", name, "images.channel", channel, f"Alt+{number}", tip=tip)
-    for number, (channel, (name, tip)) in enumerate(CHANNELS.items(), 1)
-)
-SHOWN_COMPONENT = tuple(
-    choosing(
-        "Image/Channel",
-        f"{component.capitalize()} only",
-        "images.component",
-        component,
-        f"Alt+{component[0].upper()}",
-        off="rgb",
-        separated=component == "red",
-        tip=f"the {component} channel only, as gray",
-    )
-    for component in ("red", "green", "blue")
-)
-SIZES = (
+IMAGE = (
+    *(
+        choosing("Image/Channel", name, "images.channel", channel, f"Alt+{number}", tip=tip)
+        for number, (channel, (name, tip)) in enumerate(CHANNELS.items(), 1)
+    ),
     *map(_resolution, (None, *RESOLUTIONS)),
     Action(
         RESOLUTION,
@@ -107,18 +93,18 @@ SIZES = (
         )
         for count in SAMPLES
     ),
-)
-FIT = _magnification(None, "Fit", "Alt+0", "All of the image in its window.")
-FACTORS = tuple(
-    _magnification(
-        factor,
-        magnification_text(factor),
-        "Alt+A" if factor == 1 else "",
-        "Ctrl+wheel magnifies at the pointer, Ctrl+drag moves the image.",
-    )
-    for factor in MAGNIFICATIONS
-)
-PIXELS = (
+    _magnification(None, "Fit", "Alt+0", "All of the image in its window."),
+    Action(MAGNIFY, "Magnify", _step(1), "Alt++"),
+    Action(MAGNIFY, "Reduce", _step(-1), "Alt+-"),
+    *(
+        _magnification(
+            factor,
+            magnification_text(factor),
+            "Alt+A" if factor == 1 else "",
+            "Ctrl+wheel magnifies at the pointer, Ctrl+drag moves the image.",
+        )
+        for factor in MAGNIFICATIONS
+    ),
     choosing(
         MAGNIFY,
         "Pixel grid and values",
@@ -129,30 +115,18 @@ PIXELS = (
         separated=True,
         tip="Lines from 8x on, numbers from 32x on.",
     ),
-)
-LINEAR = choosing(
-    "Image",
-    "Linear light (no sRGB curve)",
-    "images.transfer",
-    "linear",
-    "Alt+L",
-    off="srgb",
-    tip="On: linear light as it is, too dark. Off: through the curve that screens expect.",
-)
-
-IMAGE = (
-    *SHOWN_CHANNEL,
-    *SHOWN_COMPONENT,
-    *SIZES,
-    FIT,
-    Action(MAGNIFY, "Magnify", _step(1), "Alt++"),
-    Action(MAGNIFY, "Reduce", _step(-1), "Alt+-"),
-    *FACTORS,
-    *PIXELS,
     Action("Image", "Brighter", _exposure(0.5), "+", separated=True),
     Action("Image", "Darker", _exposure(-0.5), "-"),
     Action("Image", "Exposure 0", _exposure(0.0), "0"),
-    LINEAR,
+    choosing(
+        "Image",
+        "Linear light (no sRGB curve)",
+        "images.transfer",
+        "linear",
+        "Alt+L",
+        off="srgb",
+        tip="On: linear light as it is, too dark. Off: through the curve that screens expect.",
+    ),
     choosing(
         "Image",
         "Straight lines",

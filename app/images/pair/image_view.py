@@ -14,7 +14,6 @@ from lucida.app.images.pair.image_mouse import ImageMouse
 from lucida.app.images.pair.marks import claim_keys, walked
 from lucida.app.images.pair.pane import Pane, draw_pane
 from lucida.app.images.pair.rulers import ruler_sizes
-from lucida.app.images.pair.toolbar import image_strip
 from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
 from lucida.app.state.app_state import AppState
@@ -183,24 +182,19 @@ class ImageView(Instrument):
 
     def _why_black(self, host: Host, screen: Screen) -> None:
         """Draw the note on a black image, with its button if there is one that helps."""
-        both, state, guest = host.renderers, host.state, self.linked.guest
+        both, state = host.renderers, host.state
         reason, verdict = both.why_black(state), both.verdict(state)
         if reason is None or verdict is None:
             return
-        offered = guest.remedy(state, reason.cause) if guest is not None else ""
-        if not dark_note(reason.text, offered or remedy_for(reason), screen):
+        if not dark_note(reason.text, remedy_for(reason), screen):
             return
         try:
-            if guest is not None and offered:
-                host.change(guest.remedied(state, offered))
-            else:
-                host.travel(helped(state, reason, verdict.darkness, host.focus))
+            host.travel(helped(state, reason, verdict.darkness, host.focus))
         except LucidaError as problem:
             host.files.message = str(problem)
 
     def _strip(self, host: Host) -> None:
-        if host.has_tools and not host.state.preferences.presentation:
-            image_strip(self.name, host)
+        """Draw above the image."""
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
         """Return the pixel to frame: always in the other image, in this one only if it is small."""

@@ -9,7 +9,6 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from lucida.app.images.pair.straight_lines import SAMPLES, curves, draw_curves, placed
 from lucida.app.images.screen import Screen
 from lucida.app.state.options.pair import PairOptions
 from lucida.app.ui import theme
@@ -50,15 +49,6 @@ def vanishing_point(camera: Camera, along: Sequence[float]) -> Floats | None:
     return np.asarray(camera.eye) - np.sign(into) * np.asarray(along, float)
 
 
-def _between(camera: Camera, segment: Floats) -> Floats:
-    """Return points (n, 3) that are seen evenly spaced along a segment, however long it is."""
-    ways = segment - np.asarray(camera.eye)
-    ways /= np.linalg.norm(ways, axis=1)[:, None]
-    share = np.linspace(0, 1, SAMPLES)[:, None]
-    points: Floats = np.asarray(camera.eye) + (1 - share) * ways[0] + share * ways[1]
-    return points
-
-
 def draw_parallels(
     draw: imgui.ImDrawList,
     screen: Screen,
@@ -66,7 +56,7 @@ def draw_parallels(
     size: tuple[int, int],
     options: PairOptions,
 ) -> None:
-    """Draw the lines, and the point in which they meet."""
+    """Draw the lines, and the point in which they meet. camera: without a lens."""
 
     def place(points: Floats) -> list[ImVec2]:
         row, column, _ = camera.project(points, size)
@@ -75,18 +65,14 @@ def draw_parallels(
 
     color, dark = theme.u32(theme.MARK), theme.u32(theme.rgb("#000000", 0.6))
     draw.push_clip_rect(*screen.visible, True)
-    for segment in ends(camera.pinhole, options.parallels, options.along):
-        if camera.lens is not None:
-            bent = curves(camera, _between(camera, segment)[None], size)
-            draw_curves(draw, screen, placed(bent, screen), color, 2.0)
-            continue
+    for segment in ends(camera, options.parallels, options.along):
         start, end = place(segment)
         end = start + (end - start) * options.extended
         for ink, width in ((dark, 4.0), (color, 2.0)):
             draw.add_line(start, end, ink, theme.line_px(width))
     meets = vanishing_point(camera, options.along) if options.extended == 1 else None
     at = place(meets)[0] if meets is not None else ImVec2(math.nan, math.nan)
-    if math.isfinite(at.x):  # the lens sees it
+    if math.isfinite(at.x):
         for ink, width in ((dark, 6.0), (color, 3.0)):
             draw.add_circle(at, theme.px(9), ink, 0, theme.line_px(width))
         wide, pad = imgui.calc_text_size(LABEL), ImVec2(theme.px(4), theme.px(4))

@@ -61,7 +61,7 @@ class PairView(ImageView):
         camera = both.camera(state)
         if options.straight_lines and not camera.is_parallel:
             draw_grid(draw, screen, camera, both.size)
-        if options.vanishing:
+        if options.vanishing and camera.lens is None:
             draw_parallels(draw, screen, camera, both.size, options)
         if options.footprint and state.marked is not None:
             self._draw_footprint(host, screen, state.marked)

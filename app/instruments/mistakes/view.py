@@ -177,8 +177,7 @@ class MistakesView(Instrument):
             if host.state.options.mistakes.difference:
                 difference = uploads.get("difference")
                 shown.append(GridPicture("difference", "difference", difference, told))
-        clicked = picture_grid(shown, made.of.size, room, host.fonts)
-        return clicked.pixel if clicked is not None else None
+        return picture_grid(shown, made.of.size, room, host.fonts)
 
     def _mark(self, host: Host, now: Situation, pixel: Pixel) -> None:
         """Mark a pixel in all views, or clear its mark."""

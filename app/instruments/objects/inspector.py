@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 import msgspec
@@ -32,7 +31,7 @@ from lucida.app.ui.checks import checkbox
 from lucida.app.ui.fields import Scale
 from lucida.app.ui.lettering import fitting_words
 from lucida.renderer.editing import objects
-from lucida.renderer.editing.changing import Item, fields_of, set_field
+from lucida.renderer.editing.changing import Item, fields_of
 from lucida.renderer.editing.outline import OutlineRow
 from lucida.renderer.files.schema import (
     LightTable,
@@ -205,7 +204,7 @@ def _value_line(label: str, value: Any, tooltip: str, default: Any, around: Pane
 def _place_lines(
     edits: Edits, items: Sequence[Item], fields: SphereTable | MeshTable, around: PanelSetting
 ) -> None:
-    """Draw the place, with a button that resets it."""
+    """Draw the place."""
     rows.line()
     fonts = around.fonts
 
@@ -223,19 +222,8 @@ def _place_lines(
     scale, factors = fields.scale, Scale(0.05, 20, logarithmic=True)
     if isinstance(scale, int | float):
         edits.set(items, "scale", number_line("scale", scale, factors, TOLD["scale"], fonts, 1.0))
-        other: Any = [scale] * 3
     else:
         line("scale", "scale", [factors if k > 0 else Scale(-20, 20) for k in scale], (1, 1, 1))
-        other = max(scale, key=abs)
-    changed, _ = checkbox("one factor", isinstance(scale, int | float))
-    rows.tip("the same along all axes")
-    if changed:
-        edits.set(items, "scale", other)
-    imgui.same_line()
-    if imgui.small_button("Reset"):
-        for name in ("translate", "rotate_deg", "scale"):
-            edits.append(partial(set_field, items=items, field=name, value=None))
-    rows.tip("not moved, not turned, not scaled")
 
 
 def _light_lines(

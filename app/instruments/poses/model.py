@@ -22,7 +22,7 @@ from lucida.app.state.paths import stored
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras import CameraSet, PosedCamera, read_cameras
-from lucida.renderer.files.cameras.given import Options, given
+from lucida.renderer.files.cameras.given import given
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.system.file_dependencies import Noted
 
@@ -126,9 +126,9 @@ class PoseSet:
         return View(posed.camera, is_fitted(posed), (posed.camera, posed.size))
 
 
-def load_poses(path: Path, options: Options | None = None) -> CameraSet:
+def load_poses(path: Path) -> CameraSet:
     """Return the contents of a file or a folder. Raises LucidaError."""
-    return read_cameras(given(path), options=options)
+    return read_cameras(given(path))
 
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:

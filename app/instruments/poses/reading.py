@@ -14,7 +14,7 @@ from lucida.app.cameras.taken import TakenCamera, is_fitted, told_of
 from lucida.app.instruments.poses.model import PoseSet, load_poses, pose_set
 from lucida.app.ui.background import Background
 from lucida.app.ui.watching import FilesWatch
-from lucida.renderer.files.cameras.given import Given, Options, given
+from lucida.renderer.files.cameras.given import Given, given
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import LucidaError, describe, one_line
@@ -120,11 +120,11 @@ def _has_no_mesh(model: Given) -> bool:
     return isinstance(tree, dict) and bool(tree.get("cameras")) and not tree.get("meshes")
 
 
-def open_cameras(source: str, options: Options | None = None) -> PoseSet | TakenCamera:
+def open_cameras(source: str) -> PoseSet | TakenCamera:
     """Return a set of cameras, or the only one. Raise LucidaError."""
     path = Path(source).absolute()
     with noting() as files:
-        found = load_poses(path, options)
+        found = load_poses(path)
     check_cancelled()
     if len(found.cameras) == 1 and (found.points is None or not len(found.points)):
         posed = found.cameras[0]

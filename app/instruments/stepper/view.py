@@ -24,7 +24,6 @@ from lucida.app.instruments.stepper.outside_items import run_items
 from lucida.app.instruments.stepper.pictures import LoopPictures
 from lucida.app.instruments.stepper.recording import Recording
 from lucida.app.instruments.stepper.runs import Made, Prepared, recordings
-from lucida.app.ui.action import Action
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.renderer.system.memo import Memo
@@ -35,23 +34,10 @@ LEAST_EM = 18.0  # the width and height of an algorithm; more than there is room
 LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 
 
-def _stepping(step: panel.Step) -> Action:
-    return Action(
-        "Instruments/In the loop stepper",
-        f"Stepper: {step.told}",
-        lambda window: window.view(StepperView).ask(step.wish),
-        step.shown,
-        binds=False,  # its panel reads the keys while it has the keyboard
-        can=lambda window: window.is_visible(STEPPER),
-        separated=step is panel.STEPS[0],
-    )
-
-
 class StepperView(Instrument):
     name = STEPPER
     title = "Loop stepper"
-    actions = tuple(map(_stepping, panel.STEPS))
-    heading = "Loop stepper, once it is clicked"
+    keyboard = tuple((f"{step.shown} in the stepper", step.told) for step in panel.STEPS)
 
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)
@@ -63,11 +49,6 @@ class StepperView(Instrument):
         self._moment = Memo(moment_at, len(TITLES))
         self._items = Memo(run_items)
         self.moments: tuple[Moment, ...] = ()
-        self._wish: Wish = ""
-
-    def ask(self, wish: Wish) -> None:
-        """Ask for what a button or a key would, in the next frame."""
-        self._wish = wish
 
     @property
     def settled(self) -> bool:
@@ -89,7 +70,7 @@ class StepperView(Instrument):
         self._outside.show(STEPPER, ())
 
     def begin_anew(self) -> None:
-        self.playing, self._wish = False, ""
+        self.playing = False
 
     def draw(self, host: Host) -> None:
         self._canvases.begin_frame()
@@ -99,7 +80,7 @@ class StepperView(Instrument):
             return
         state, clicked = panel.controls(host.state, self.playing)
         host.apply(state)
-        wish, self._wish = self._wish or panel.keys() or clicked, ""
+        wish = panel.keys() or clicked
         made = self._runs.current(host)
         if made is not None:
             self._move(host, made.value, wish)

@@ -29,12 +29,11 @@ MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 
 # Fields of ImageOptions that say how an image is shown, not which one.
 DISPLAY = (
-    *("channel", "component", "transfer", "exposure_ev", "magnification", "center"),
+    *("channel", "transfer", "exposure_ev", "magnification", "center"),
     *("grid", "dissolved"),
 )
 
 Channel = Literal["color", "depth", "normal", "id", "z"]
-Component = Literal["rgb", "red", "green", "blue"]
 Transfer = Literal["srgb", "linear"]
 Language = Literal["python", "julia"]
 
@@ -44,8 +43,7 @@ class ImageOptions(OptionPart):
     """The options of both images.
 
     exposure_ev: the display's brightness, in stops. transfer: how light becomes a display value.
-    component: all of a colour, or one of its channels. resolution: (width, height) of both images,
-    None for as many pixels as the window has.
+    resolution: (width, height) of both images, None for as many pixels as the window has.
     magnification: screen pixels per side of an image's pixel if the user has zoomed into the
     pixels, None to fit the whole image into its window; center: the centre of the view then, as a
     fraction of the image's width and height. grid: draw lines between pixels, and their numbers,
@@ -57,7 +55,6 @@ class ImageOptions(OptionPart):
     """
 
     channel: Channel = "color"
-    component: Component = "rgb"
     transfer: Transfer = "srgb"
     exposure_ev: Annotated[float, Range(-8, 8)] = 0.0
     resolution: Annotated[tuple[int, int], Accepted(check_size)] | None = None

@@ -9,7 +9,6 @@ from lucida.renderer.files.cameras.formats import (
     format_named,
     read_cameras,
     read_chosen,
-    save_files,
     without_choice,
     written,
 )
@@ -25,7 +24,6 @@ __all__ = [
     "one_of",
     "read_cameras",
     "read_chosen",
-    "save_files",
     "without_choice",
     "written",
 ]

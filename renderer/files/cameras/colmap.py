@@ -2,13 +2,13 @@
 
 K is in pixels measured from the image's corner; a pose is camera-from-world, with y down and z
 forward. The files of rigs and frames, which newer versions write, add nothing to the images and are
-ignored. This module writes text files, without points.
+ignored. Models are only read: a set of cameras is written as glTF.
 Source: COLMAP's documentation, "Output Format".
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from os.path import isdir, isfile  # unlike Path's methods, they never raise
 from pathlib import Path, PureWindowsPath
 from typing import TypeVar
@@ -16,21 +16,16 @@ from typing import TypeVar
 import numpy as np
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import viewport_of
-from lucida.renderer.files.cameras import colmap_lenses
 from lucida.renderer.files.cameras import colmap_records as records
-from lucida.renderer.files.cameras.colmap_lenses import model_for
 from lucida.renderer.files.cameras.distortion import lens_of
 from lucida.renderer.files.cameras.entries import ORIGIN_TOLD
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image
-from lucida.renderer.files.cameras.rigid import pinhole
-from lucida.renderer.files.cameras.rotations import quaternion_of, rotation_of
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.files.cameras.rotations import rotation_of
 from lucida.renderer.files.reading import naming, read_file
 from lucida.renderer.system.errors import LucidaError, under
 
-LENSES = frozenset(colmap_lenses.LENSES.values())
 FILES = ("cameras", "images", "points3D")
 MORE_FILES = ("rigs", "frames")
 LARGEST_FILE_BYTES = 1 << 30
@@ -65,7 +60,7 @@ def read(given: Given, options: Options) -> CameraSet:
     for number, found in lenses.items():
         (fx, _, cx), (_, fy, cy), _ = found.matrix.tolist()
         viewport = viewport_of(fx, fy, cx, cy, found.size, origin)
-        optics[number] = viewport, lens_of(found.model, found.coefficients, options)
+        optics[number] = viewport, lens_of(found.model, found.coefficients)
     photographs = _photographs(folder)
     numbers = np.array([image.pose for image in images]).reshape(-1, 7)
     with naming(folder / f"images{kind}"):
@@ -79,67 +74,17 @@ def read(given: Given, options: Options) -> CameraSet:
                 problem = f"{image.camera} is not in cameras{kind}"
                 raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
             u, v, w = basis
-            viewport, (lens, ignored) = optics[image.camera]
+            viewport, lens = optics[image.camera]
             camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
         photograph = _photograph(photographs, image.name)
         size = lenses[image.camera].size
-        posed.append(PosedCamera(camera, size, image.name, photograph, ignored=ignored))
+        posed.append(PosedCamera(camera, size, image.name, photograph))
     taken = (
         f"the {kind} files in {folder}",
         "camera from world, y down, z forward",
         ORIGIN_TOLD[origin],
     )
     return CameraSet("colmap", tuple(posed), taken, *cloud)
-
-
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
-    lenses: dict[str, int] = {}  # ids by the text of their line
-    lines, names = [], set()
-    for number, posed in enumerate(cameras, 1):
-        name = posed.name or f"image_{number:04}.png"
-        with under(name):
-            if len(name.split()) != 1 or name in names or not name.isprintable():
-                fault = "is given twice" if name in names else "is no single word"
-                raise LucidaError("name", f"{name!r} {fault}", "give each camera a name of its own")
-            camera, size = in_image(posed, options, "COLMAP")
-            lens, pose = _lines_of(camera, size)
-        names.add(name)
-        lens_number = lenses.setdefault(lens, len(lenses) + 1)
-        lines.append(f"{number} {pose} {lens_number} {name}\n\n")
-    lens_lines = [f"{number} {lens}\n" for lens, number in lenses.items()]
-    counts = f"# Number of cameras: {len(lenses)}\n", f"# Number of images: {len(lines)}\n"
-    texts = {
-        "cameras.txt": (_CAMERAS_HEAD, counts[0], *lens_lines),
-        "images.txt": (_IMAGES_HEAD, counts[1], *lines),
-        "points3D.txt": (_POINTS_HEAD,),
-    }
-    return {name: "".join(parts).encode() for name, parts in texts.items()}
-
-
-_CAMERAS_HEAD = """\
-# Camera list with one line of data per camera:
-#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]
-"""
-_IMAGES_HEAD = """\
-# Image list with two lines of data per image:
-#   IMAGE_ID, QW, QX, QY, QZ, TX, TY, TZ, CAMERA_ID, NAME
-#   POINTS2D[] as (X, Y, POINT3D_ID)
-"""
-_POINTS_HEAD = """\
-# 3D point list with one line of data per point:
-#   POINT3D_ID, X, Y, Z, R, G, B, ERROR, TRACK[] as (IMAGE_ID, POINT2D_IDX)
-# Number of points: 0
-"""
-
-
-def _lines_of(camera: Camera, size: Size) -> tuple[str, str]:
-    """Return a camera's MODEL, WIDTH, HEIGHT, PARAMS[], and its QW, QX, QY, QZ, TX, TY, TZ."""
-    camera, focal = pinhole(camera, size, "COLMAP")
-    model, params = model_for(camera.lens, focal, size)
-    rotation = np.array([1.0, -1.0, -1.0])[:, None] * camera.basis.T
-    pose = [*quaternion_of(rotation), *(-rotation @ np.asarray(camera.eye)).tolist()]
-    lens = " ".join([model, *map(str, size), *(f"{value:.15g}" for value in params)])
-    return lens, " ".join(map(repr, pose))
 
 
 def _model(given: Given) -> tuple[Path, str] | None:

@@ -13,7 +13,6 @@ import numpy as np
 
 from lucida.renderer.camera.checks import Floats, number, positive
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError
 
@@ -56,7 +55,6 @@ LENSES = {
 }
 _FOCAL = ("f", "fx", "fy", "w", "h")
 _PIXELS = (*_FOCAL, "cx", "cy")
-_SAME = 1e-12  # relative: focal lengths that differ by less are one
 
 
 class ColmapLens(NamedTuple):
@@ -87,41 +85,5 @@ def colmap_lens(model: str, width: int, height: int, values: list[float]) -> Col
         known |= {"cx": known["w"] / 2, "cy": known["h"] / 2}
     fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))
     K = np.array([[fx, 0, known["cx"]], [0, fy, known["cy"]], [0, 0, 1]])
-    bent = {lens_name(name): value for name, value in known.items() if name not in _PIXELS}
+    bent = {"k1" if n == "k" else n: value for n, value in known.items() if n not in _PIXELS}
     return ColmapLens(check_size((width, height)), K, LENSES[model], bent)
-
-
-def lens_name(name: str) -> str:
-    """Return the name in Lens of a coefficient."""
-    return "k1" if name == "k" else name
-
-
-def model_for(
-    lens: Lens | None, focal: tuple[float, float, float, float], size: Size
-) -> tuple[str, list[float]]:
-    """Return the model with the fewest parameters that holds a lens, and these.
-
-    focal: fx, fy, cx, cy. Raises LucidaError.
-    """
-    if lens is None:
-        return "PINHOLE", list(focal)
-    fx, fy, cx, cy = focal
-    known = {"fx": fx, "fy": fy, "cx": cx, "cy": cy}
-    if math.isclose(fx, fy, rel_tol=_SAME):
-        known["f"] = fx
-    whole = (size[0] / (2 * math.pi), size[1] / math.pi, size[0] / 2, size[1] / 2)
-    if lens.model == "equirectangular" and np.allclose(focal, whole, rtol=_SAME, atol=0):
-        known |= {"w": size[0], "h": size[1]}
-    needed = {name for name, value in lens.coefficients.items() if value}
-    for model in sorted(LENSES, key=lambda model: len(MODELS[model])):
-        names = MODELS[model]
-        bends = {lens_name(name) for name in names if name not in _PIXELS}
-        pixels = all(name in known for name in names if name in _PIXELS)
-        if LENSES[model] == lens.model and pixels and needed <= bends:
-            return model, [known.get(name, lens.coefficient(lens_name(name))) for name in names]
-    if lens.model == "equirectangular":
-        problem, remedy = "is not of the whole sphere", "give a viewport of 2 pi by pi"
-    else:
-        problem = f"with {', '.join(sorted(needed))} is a lens that no model of COLMAP holds"
-        remedy = "leave some out, or give --ignore-distortion"
-    raise LucidaError("lens", f"{lens.model} {problem}", remedy)

@@ -1,36 +1,22 @@
-"""A file's lens, and how far it moves what a pinhole's image shows."""
+"""A file's lens."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import replace
-from typing import NamedTuple
-
-import numpy as np
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras.given import Options
-from lucida.renderer.files.cameras.posed import PosedCamera
 from lucida.renderer.system.errors import LucidaError
 
 # OpenCV's coefficients, in the order of its vectors; a fisheye has k1 to k4.
 NAMES = ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tauX", "tauY")
 COUNTS = (4, 5, 8, 12, 14)  # allowed lengths of a vector
 FISHEYE_NAMES = ("k1", "k2", "k3", "k4")
-_GRID = 33  # points a side, over the image from edge to edge
 
 
-class FileLens(NamedTuple):
-    """A file's lens. used: None for a pinhole. ignored: the lens, if it was to be ignored."""
-
-    used: Lens | None
-    ignored: Lens | None
-
-
-def lens_of(model: str, coefficients: Mapping[str, float], options: Options) -> FileLens:
-    """Return a lens without the coefficients that are 0. A fisheye is a lens even if all are 0.
+def lens_of(model: str, coefficients: Mapping[str, float]) -> Lens | None:
+    """Return a lens without the coefficients that are 0, None for a pinhole. A fisheye is a lens
+    even if all are 0.
 
     model: of Lens. Raises LucidaError for a tilted sensor, which Lens does not have.
     """
@@ -39,39 +25,12 @@ def lens_of(model: str, coefficients: Mapping[str, float], options: Options) -> 
             problem = f"{coefficients[tilt]:g} is a tilted sensor's, which is not supported"
             raise LucidaError(tilt, problem, "calibrate without CALIB_TILTED_MODEL")
     known = {name: value for name, value in coefficients.items() if value}
-    lens = Lens(model, known) if known or model not in ("brown", "fov") else None
-    return FileLens(None, lens) if options.ignore_distortion else FileLens(lens, None)
+    return Lens(model, known) if known or model not in ("brown", "fov") else None
 
 
-def without_lens(posed: PosedCamera) -> PosedCamera:
-    """Return the pinhole, which remembers the lens that is ignored."""
-    lens = posed.camera.lens
-    return posed if lens is None else replace(posed, camera=posed.camera.pinhole, ignored=lens)
-
-
-def check_held(camera: Camera, size: Size | None, models: Collection[str], target: str) -> None:
-    """Raise LucidaError if a camera has a lens of another model, saying what it moves."""
+def check_held(camera: Camera, models: Collection[str], target: str) -> None:
+    """Raise LucidaError if a camera has a lens of another model."""
     lens = camera.lens
     if lens is not None and lens.model not in models:
-        problem = f"{lens.model} moves {effect(camera, lens, size)}, and {target} cannot hold it"
-        raise LucidaError("lens", problem, "remove the lens, or give --ignore-distortion")
-
-
-def effect(camera: Camera, lens: Lens, size: Size | None) -> str:
-    """Return the effect of a lens on a pinhole in words, after "moves"."""
-    if size is None:
-        return "points of the image"
-    median, largest = shift_px(camera, lens, size)
-    return f"points by up to {largest:.3g} pixels, {median:.3g} in the median"
-
-
-def shift_px(camera: Camera, lens: Lens, size: Size) -> tuple[float, float]:
-    """Return how far a lens moves the points of a pinhole's image, where the lens sees them: the
-    median, and the most.
-    """
-    columns, rows = np.meshgrid(*(np.linspace(0, side, _GRID) - 0.5 for side in size))
-    pinhole = replace(camera, eye=(0.0, 0.0, 0.0), lens=None)
-    seen = replace(pinhole, lens=lens).project(pinhole.ray(rows, columns, size).direction, size)
-    shift = np.hypot(seen.row - rows, seen.column - columns)
-    shift = shift[np.isfinite(shift)]
-    return (float(np.median(shift)), float(shift.max())) if shift.size else (0.0, 0.0)
+        problem = f"{lens.model} is a lens that {target} cannot hold"
+        raise LucidaError("lens", problem, "take it off: Camera > Lens > No lens, or --lens none")

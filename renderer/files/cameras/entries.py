@@ -25,7 +25,6 @@ ORIGIN_TOLD: dict[PixelOrigin, str] = {
 
 SHOWN = 8  # unused keys that a note names; the others are counted
 _LAST = (0.0, 0.0, 0.0, 1.0)  # row of an affine map
-_ROUNDED = 1e-4  # tolerance for a rotation in float32, or with four digits
 
 
 def number_of(name: str, value: object) -> float:
@@ -76,14 +75,6 @@ def affine(name: str, value: ArrayLike) -> Floats:
         remedy = "is it transposed? give it row by row" if turned else "give an affine matrix"
         raise LucidaError(name, problem, remedy)
     return found
-
-
-def is_rotation(linear: Floats) -> bool:
-    """Return True if all matrices (..., 3, 3) are rotations up to rounding. A camera with any other
-    matrix is kept unchanged.
-    """
-    products = linear @ np.swapaxes(linear, -1, -2)
-    return bool(np.abs(products - np.eye(3)).max() < _ROUNDED and (np.linalg.det(linear) > 0).all())
 
 
 def plain(name: str) -> str:

@@ -4,28 +4,26 @@ A format is a module here and a line in FORMATS. A module has
 
     recognises(given: Given) -> bool            True if it looks like this format; never raises
     read(given: Given, options: Options) -> CameraSet
-    write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]
+    write(cameras: Sequence[PosedCamera], options: Options) -> bytes
 
-which returns the content of the file under "", or the contents of a folder's files by their names.
+which returns the content of the file; a format without endings is only read.
 LENSES are the models of lenses that it can hold; without it, none.
 Each raises LucidaError; a camera that the format cannot hold is never written.
 """
 
 from __future__ import annotations
 
-import contextlib
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from lucida.renderer.files.cameras.distortion import check_held, without_lens
+from lucida.renderer.files.cameras.distortion import check_held
 from lucida.renderer.files.cameras.given import Given, Options, from_json, given
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
 from lucida.renderer.files.reading import naming, suggestion
-from lucida.renderer.system.atomic import atomic_write, check_writable
 from lucida.renderer.system.errors import LucidaError, under
 
 
@@ -34,7 +32,7 @@ class Format:
     """A camera format.
 
     name: on the command line. what: in words. needs: the parts by which a file is recognised.
-    endings: of the file that is written, "" for a folder; the first is the default.
+    endings: of the file that is written; none for a format that is only read.
     """
 
     name: str
@@ -46,6 +44,12 @@ class Format:
     def module(self) -> ModuleType:
         return import_module(f"lucida.renderer.files.cameras.{self.name}")
 
+    def check_written(self) -> None:
+        """Raise LucidaError if the format is only read."""
+        if not self.endings:
+            names = ", ".join(entry.name for entry in FORMATS if entry.endings)
+            raise LucidaError("format", f"{self.name!r} is only read", f"give one of {names}")
+
 
 _FRAMES = "frames with a transform_matrix"
 _MATRICES = "a view matrix and a projection matrix of 16 numbers"
@@ -54,11 +58,11 @@ _K = "camera_matrix, K, P, or fx and fy"
 # In the order in which recognised() tries them.
 FORMATS = (
     Format("view", "Lucida's view file", "a table [camera]", (".toml",)),
-    Format("colmap", "COLMAP's model", "the files cameras and images", ("",)),
-    Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, (".json",)),
+    Format("colmap", "COLMAP's model", "the files cameras and images", ()),
+    Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, ()),
     Format("opengl", "OpenGL's view and projection matrices", _MATRICES, (".txt",)),
     Format("opencv", "OpenCV's K, R and t, or a calibration of its family", _K, (".yml",)),
-    Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf", ".glb")),
+    Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf",)),
 )
 
 _TEXTS = (".json", ".yml", ".yaml", ".xml", ".toml", ".txt")
@@ -141,52 +145,16 @@ def recognised(found: Given) -> Format:
     raise LucidaError("", "is not a recognised camera format", remedy)
 
 
-def written(
-    cameras: Sequence[PosedCamera], format: str, options: Options | None = None
-) -> dict[str, bytes]:
-    """Return cameras as files of a format: by name within a folder, or one file under "".
+def written(cameras: Sequence[PosedCamera], format: str, options: Options | None = None) -> bytes:
+    """Return cameras as a file of a format.
 
     Raises LucidaError if the format cannot hold them: a lens is never dropped silently.
     """
     entry, options = format_named(format), options or Options()
-    if options.ignore_distortion:
-        cameras = [without_lens(posed) for posed in cameras]
+    entry.check_written()
     for posed in cameras:
         with under(posed.name):
             models = getattr(entry.module, "LENSES", ())
-            check_held(posed.camera, posed.size or options.size, models, entry.name)
-    files: dict[str, bytes] = entry.module.write(cameras, options)
-    return files
-
-
-def save_files(path: Path, files: Mapping[str, bytes]) -> None:
-    """Write one file (named "") or a folder of files.
-
-    Raises LucidaError, and leaves everything as it was, if one of them cannot be written.
-    """
-    if "" in files:
-        with atomic_write(path) as file:
-            file.write(files[""])
-        return
-    is_new = not path.is_dir()
-    if is_new:
-        check_writable(path)
-        try:
-            path.mkdir()
-        except OSError:
-            raise LucidaError("", "is a file", "give the name of a folder", str(path)) from None
-    others = [n for n in sorted(os.listdir(path)) if n not in files and not n.startswith(".")]
-    if others:
-        problem = f"holds other files, such as {others[0]!r}"
-        raise LucidaError("", problem, "give a folder of its own", str(path))
-    try:
-        with contextlib.ExitStack() as stack:  # the files are renamed when all are written
-            for name, data in files.items():
-                file = stack.enter_context(atomic_write(path / name))
-                file.write(data)
-                file.flush()  # a full disk shows before any file is replaced
-    except BaseException:
-        if is_new:
-            with contextlib.suppress(OSError):
-                path.rmdir()
-        raise
+            check_held(posed.camera, models, entry.name)
+    data: bytes = entry.module.write(cameras, options)
+    return data

@@ -20,14 +20,11 @@ LARGEST_BYTES = 1 << 28  # a COLMAP model of some ten thousand images
 class Options:
     """The command's options.
 
-    pixel_origin: None for the format's own. size: for cameras that have none. ignore_distortion:
-    read a camera with a lens as a pinhole. is_binary: write glTF as a .glb file.
+    pixel_origin: None for the format's own. size: for cameras that have none.
     """
 
     pixel_origin: PixelOrigin | None = None
     size: Size | None = None
-    ignore_distortion: bool = False
-    is_binary: bool = False
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The cameras of glTF files, .gltf and .glb, each at its node; and writing files with nothing else.
+"""The cameras of glTF files, .gltf and .glb, each at its node; and .gltf files with nothing else.
 
 A glTF camera is centred and has no skew; it does not store an image size.
 Source: Khronos, glTF 2.0 Specification, "Cameras".
@@ -19,7 +19,7 @@ from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, sized
 from lucida.renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
 from lucida.renderer.files.models.gltf import placed_nodes
 from lucida.renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
-from lucida.renderer.files.models.gltf_file import Gltf, glb_bytes, parse_gltf
+from lucida.renderer.files.models.gltf_file import Gltf, parse_gltf
 from lucida.renderer.scene.limits import OBJECTS
 from lucida.renderer.system.errors import LucidaError
 
@@ -63,7 +63,7 @@ def _notes(tree: Gltf, shown: set[int]) -> Iterator[str]:
         yield f"cameras[{number}] is not used: no node of the scene holds it"
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     lenses, nodes = [], []
     for number, posed in enumerate(cameras):
         camera, size = sized(posed, options)
@@ -79,9 +79,7 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         "nodes": nodes,
         "cameras": lenses,
     }
-    if options.is_binary:
-        return {"": glb_bytes(tree)}
-    return {"": (json.dumps(tree, indent=1, ensure_ascii=False) + "\n").encode()}
+    return (json.dumps(tree, indent=1, ensure_ascii=False) + "\n").encode()
 
 
 def node_matrix(camera: Camera) -> list[float]:

@@ -43,7 +43,7 @@ from lucida.renderer.files.cameras.opencv_keys import (
 )
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image, one_of
 from lucida.renderer.files.cameras.rigid import rigid
-from lucida.renderer.files.cameras.rotations import from_vector, to_vector
+from lucida.renderer.files.cameras.rotations import from_vector
 from lucida.renderer.system.errors import LucidaError
 
 LENSES = ("brown", "fisheye", "equidistant")
@@ -86,25 +86,20 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
             # In ROS, P is of the rectified image, into which R rotates.
             rectified = ("P",) if "t" in keys else ("P", "R")
         others = [keys.pop(role)[0] for role in rectified if role in keys]
-        lens, ignored = lens_in(keys, options)
+        lens = lens_in(keys)
         intrinsics = _intrinsics(keys)
         size, sizing = _size(keys, intrinsics[1], options, origin)
-        poses, told, more = _poses(keys, pose)
-        pose = poses[0][1]
+        (called, pose), told, more = _pose(keys, pose)
         name = (name if len(found) > 1 else "") or str(keys.get("name", ("", ""))[1] or "")
-        for called, pose_of_one in poses:
-            camera = _camera(intrinsics, (called, pose_of_one), size, origin, lens)
-            own = name if len(poses) == 1 else called
-            cameras.append(PosedCamera(camera, size, own, ignored=ignored))
+        camera = _camera(intrinsics, (called, pose), size, origin, lens)
+        cameras.append(PosedCamera(camera, size, name))
         taken |= dict.fromkeys([told, "axes x right, y down, z forward", ORIGIN_TOLD[origin]])
-        if not all(entries.is_rotation(pose[:3, :3]) for _, pose in poses):
-            taken["R is no rotation, and held as it is"] = None
         notes |= dict.fromkeys([*filter(None, [sizing]), *entries.notes_on([*others, *more])])
     notes |= dict.fromkeys(unused)
     return CameraSet("opencv", tuple(cameras), (*taken, *notes), notes=tuple(notes))
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     camera, size = in_image(one_of(cameras), options, "OpenCV")
     if camera.lens is not None:
         camera = rigid(camera, "OpenCV")
@@ -121,9 +116,8 @@ def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
         **lens_table(camera.lens),
         "R": R,
         "t": t[:, None],
-        "rvec": to_vector(R)[:, None],
     }
-    return {"": to_yaml(table, notes).encode()}
+    return to_yaml(table, notes).encode()
 
 
 def _origin_told(given: Given) -> PixelOrigin:
@@ -190,54 +184,36 @@ def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, s
     return size, told
 
 
-def _poses(keys: Keys, previous: Floats) -> tuple[list[_Pose], str, list[str]]:
-    """Return the poses of a camera, their origin in words, and the names of poses that are not
-    used.
+def _pose(keys: Keys, previous: Floats) -> tuple[_Pose, str, list[str]]:
+    """Return the pose of a camera, its origin in words, and the names of poses that are not used.
 
     previous: the pose of the camera before it.
     """
-    for role in ("from previous", "to previous"):
-        if found := keys.get(role):
-            change = affine(*found)
-            if role == "to previous":
-                change = as_camera_from_world(change)
-            told = f"{found[0]} places it at the camera before it"
-            return [(found[0], change @ previous)], told, []
-    poses = list(_single_poses(keys))
-    names = [name for name, _, _ in poses]
-    if found := keys.get("views"):
-        numbers = flat(*found)
-        if not numbers.size or numbers.size % 6:
-            problem = f"has {numbers.size} numbers"
-            raise LucidaError(found[0], problem, "give 6 a row: rvec and tvec")
-        rows = numbers.reshape(-1, 6)
-        views = [(f"view {i}", _rigid(from_vector(r[:3]), r[3:])) for i, r in enumerate(rows)]
-        return views, f"{found[0]}: rvec and tvec of each picture of the calibration", names
+    if found := keys.get("from previous"):
+        told = f"{found[0]} places it at the camera before it"
+        return (found[0], affine(*found) @ previous), told, []
+    poses = list(_poses(keys))
     if not poses:
-        return [("", np.eye(4))], "no pose: the camera stands at the origin", []
+        return ("", np.eye(4)), "no pose: the camera stands at the origin", []
     first, pose, told = poses[0]
-    return [(first, pose)], told, names[1:]
+    return (first, pose), told, [name for name, _, _ in poses[1:]]
 
 
-def _single_poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
+def _poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
     """Yield the name of each pose that a camera has, camera_from_world, and its origin in words."""
     if found := keys.get("from world"):
         yield found[0], affine(*found), f"{found[0]} takes world points to the camera"
     if found := keys.get("to world"):
         pose = as_camera_from_world(affine(*found))
         yield found[0], pose, f"{found[0]} takes the camera's points to the world"
-    turned, moved = keys.get("R to world"), keys.get("t to world")
-    if turned or moved:
-        name, pose, told = _parts(turned, moved, "take the camera's points to the world")
-        yield name, as_camera_from_world(pose), told
     turned, moved = keys.get("R") or keys.get("rvec"), keys.get("t")
     if found := keys.get("P"):
         yield found[0], _projected(*found)[1], f"K, R and t out of {found[0]}"
     if turned or moved:
-        yield _parts(turned, moved, "take world points to the camera")
+        yield _parts(turned, moved)
 
 
-def _parts(turned: _Entry, moved: _Entry, what: str) -> tuple[str, Floats, str]:
+def _parts(turned: _Entry, moved: _Entry) -> tuple[str, Floats, str]:
     """Return the name, the matrix and the origin in words of a rotation and a translation."""
     R = np.eye(3)
     if turned:
@@ -246,7 +222,7 @@ def _parts(turned: _Entry, moved: _Entry, what: str) -> tuple[str, Floats, str]:
     t = flat(*moved, 3) if moved else np.zeros(3)
     used = [entry[0] for entry in (turned, moved) if entry]
     lacking = "" if len(used) == 2 else f"; no {'rotation' if moved else 'translation'}"
-    return used[0], _rigid(R, t), f"{' and '.join(used)} {what}{lacking}"
+    return used[0], _rigid(R, t), f"{' and '.join(used)} take world points to the camera{lacking}"
 
 
 def _rigid(R: Floats, t: Floats) -> Floats:

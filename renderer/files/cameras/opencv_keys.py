@@ -18,7 +18,6 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import distortion
 from lucida.renderer.files.cameras.distortion import NAMES
 from lucida.renderer.files.cameras.entries import entries_of, flat, notes_on, number_of, plain
-from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.files.cameras.notations import Table
 from lucida.renderer.system.errors import LucidaError
 
@@ -37,14 +36,9 @@ _NAMES = {
     "rvec": "rvec rodrigues rotationvector",
     "t": "t tvec translation translationvector",
     "from world": "extrinsics extrinsic extrinsicmatrix rt camerafromworld worldtocamera world2cam "
-    "w2c tcamimu",
-    # The world may be a robot's or an IMU's frame.
-    "to world": "worldfromcamera cameratoworld cam2world c2w tbs tbc timucam bodytcam0 imutbc1",
-    "R to world": "extrinsicrotation",
-    "t to world": "extrinsictranslation",
-    "from previous": "tcncnm1",
-    "to previous": "stereotc1c2 tlr",  # in ORB-SLAM3, of the second camera
-    "views": "extrinsicparameters",  # of a calibration's pictures: rvec and tvec, one row each
+    "w2c",
+    "to world": "worldfromcamera cameratoworld cam2world c2w",
+    "from previous": "tcncnm1",  # Kalibr's: from the camera before it
     "lens": "distortioncoefficients distortioncoefficient distortioncoeffs distortioncoeff "
     "distortioncoefs distortionparameters distortionparams distortionvector distcoeffs distcoeff "
     "distcoefs distcoef distortion dist d",
@@ -69,7 +63,6 @@ _STEREO = re.compile(
     r"(?:(m|k|cameramatrix|intrinsicmatrix)|d|distcoeffs|distortioncoefficients)([12])"
 )
 _SIDES = {"1": "left", "2": "right"}
-_OF_FIRST = {"to world", "R to world", "t to world"}  # poses of the first of several cameras
 # Lens's model by the programs' names for it, in lower case, letters and digits only.
 _PINHOLES = """
 0 none plumbbob rationalpolynomial radtan radialtangential opencv pinhole rectified perspective
@@ -109,8 +102,6 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
         side = _STEREO.fullmatch(last)
         if side and np.size(value) > 1:
             owner, role = _SIDES[side[2]], "K" if side[1] else "lens"
-        elif role == "to previous":
-            owner = "Camera2"
         elif not owner or _CAMERA.fullmatch(owner) or are_cameras(tables[owner]):
             role = role or _ROLES.get(last)
         else:
@@ -125,8 +116,6 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
     shared = cameras.pop("")
     if "right" in cameras:
         cameras["right"] |= {role: shared.pop(role) for role in ("R", "t") if role in shared}
-    if cameras.get("Camera2", {}).keys() == {"to previous"}:
-        unused.append(cameras.pop("Camera2")["to previous"][0])
     for name in [name for name in cameras if name.lower() == "camera"]:
         if not _INTRINSIC & cameras[name].keys():  # it belongs to Camera1 and Camera2
             shared |= cameras.pop(name)
@@ -135,9 +124,6 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
         names, cameras[""] = ["", *names], shared  # a camera of its own
         shared = {role: shared[role] for role in _SIZES & shared.keys()}
     found = {name: shared | cameras[name] for name in names} or {"": shared}
-    for name in names[1:]:
-        for role in _OF_FIRST & shared.keys():
-            found[name].pop(role)
     return found, notes_on(unused)
 
 
@@ -146,7 +132,7 @@ def _owner(name: str) -> str:
     return _PART.sub("", name.rpartition(".")[0])
 
 
-def lens_in(keys: Keys, options: Options) -> distortion.FileLens:
+def lens_in(keys: Keys) -> Lens | None:
     """Return the lens. Raises LucidaError."""
     models = [_model(*keys[role]) for role in _MODEL_ROLES if role in keys]
     model = next(filter(None, models), "brown")
@@ -165,7 +151,7 @@ def lens_in(keys: Keys, options: Options) -> distortion.FileLens:
         coefficients = dict(zip(known, numbers.tolist(), strict=False))
     else:
         coefficients = {name: float(flat(*keys[name])[0]) for name in known if name in keys}
-    return distortion.lens_of(model, coefficients, options)
+    return distortion.lens_of(model, coefficients)
 
 
 def _model(name: str, value: object) -> str:
@@ -184,7 +170,7 @@ def lens_table(lens: Lens | None) -> Table:
         return {"distortion_coefficients": np.zeros((5, 1))}
     if lens.coefficient("r8"):
         problem = f"{lens.coefficient('r8'):g} is a term that OpenCV has not"
-        raise LucidaError("lens.r8", problem, "leave it out, or give --ignore-distortion")
+        raise LucidaError("lens.r8", problem, "leave it out")
     table: Table = {"distortion_model": "equidistant", "fisheye_model": 1}
     names: tuple[str, ...] = distortion.FISHEYE_NAMES
     if lens.model == "brown":

@@ -62,10 +62,10 @@ def read(given: Given, options: Options) -> CameraSet:
     return CameraSet("opengl", (PosedCamera(camera, options.size),), (*taken, *notes), notes=notes)
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     posed = one_of(cameras)
     camera = in_image(posed, options, "OpenGL")[0] if posed.fit else posed.camera
-    return {"": matrices(camera, AROUND, CHOSEN).encode()}
+    return matrices(camera, AROUND, CHOSEN).encode()
 
 
 def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:

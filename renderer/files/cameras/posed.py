@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError
@@ -25,7 +24,7 @@ class PosedCamera:
     size: (width, height) of its image; None if the format has none. The viewport then determines
     the aspect ratio, and fit means that it is widened to fit each image. name: the file's name for
     it, or the photograph's name. image: the photograph's path, "" if the file names none. It may
-    not exist. ignored: the file's lens, if the camera was read without it.
+    not exist.
     """
 
     camera: Camera
@@ -33,7 +32,6 @@ class PosedCamera:
     name: str = ""
     image: str = ""
     fit: bool = False
-    ignored: Lens | None = None
 
 
 @dataclass(frozen=True, eq=False)

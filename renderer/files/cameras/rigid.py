@@ -11,15 +11,13 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, listed
-from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import LucidaError
 
 STRAIGHT = 1e-6  # a smaller cosine is float32's rounding: treated as a right angle
 UNSEEN_PX = 0.01  # a change that moves no point of the image by more is rounding
 ANY_SIZE = (4096, 4096)  # assumed for an image of unknown size
 ROUNDED = 1e-4  # error of a rotation's numbers with four digits, or in float32
-# The command line replaces this remedy by its own.
-REMEDY = "orthonormalize it: Camera > Keep orthonormal, or camera.orthonormalized()"
+REMEDY = "make it orthonormal (Keep orthonormal, --up, orthonormalized()), or save a view file"
 
 
 def rigid(camera: Camera, target: str) -> Camera:
@@ -72,23 +70,6 @@ def rigid(camera: Camera, target: str) -> Camera:
         far=None if camera.far is None else camera.far * length,
     )
     return centred(straight) if camera.is_parallel else straight
-
-
-def pinhole(
-    camera: Camera, size: Size, target: str
-) -> tuple[Camera, tuple[float, float, float, float]]:
-    """Return the rigid camera, and fx, fy, cx, cy in pixels from the image's corner.
-
-    Raises LucidaError, also for a parallel camera.
-    """
-    if camera.is_parallel:
-        problem = f"'parallel' has no focal length, which {target} needs"
-        raise LucidaError("projection", problem, "give a perspective camera")
-    camera = rigid(camera, target)
-    (left, right, bottom, top), (width, height) = camera.viewport, size
-    across, up = width / (right - left), height / (top - bottom)  # pixels per unit
-    focal = across * camera.distance, up * camera.distance
-    return camera, (*focal, -left * across, top * up)
 
 
 def centred(camera: Camera) -> Camera:

@@ -20,13 +20,6 @@ def from_vector(vector: Floats) -> Floats:
     return rotation_of([math.cos(angle / 2), *(math.sin(angle / 2) * axis)])
 
 
-def to_vector(rotation: Floats) -> Floats:
-    """Return the rotation vector (3,), no longer than pi, of a rotation matrix (3, 3)."""
-    real, *axis = quaternion_of(rotation)
-    length = float(np.linalg.norm(axis))
-    return np.array(axis) * (2 * math.atan2(length, real) / length if length else 2.0)
-
-
 def rotation_of(quaternion: ArrayLike) -> Floats:
     """Return the rotation matrices (..., 3, 3) of quaternions (w, x, y, z), (..., 4), of any
     length.
@@ -46,16 +39,3 @@ def rotation_of(quaternion: ArrayLike) -> Floats:
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
     return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
-
-
-def quaternion_of(rotation: ArrayLike) -> list[float]:
-    """Return the quaternion (w, x, y, z), w >= 0, of a rotation matrix.
-
-    From trimesh, which takes it from the eigenvector of a symmetric matrix (Bar-Itzhack 2000).
-    """
-    from trimesh.transformations import quaternion_from_matrix  # takes long to import
-
-    pose = np.eye(4)
-    pose[:3, :3] = rotation
-    quaternion: list[float] = quaternion_from_matrix(pose).tolist()
-    return quaternion

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lucida.renderer.camera.lenses import MODELS
-from lucida.renderer.files.cameras.distortion import without_lens
 from lucida.renderer.files.cameras.given import Given, Options
 from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
 from lucida.renderer.files.reading import check_bytes
@@ -24,10 +23,9 @@ def recognises(given: Given) -> bool:
 def read(given: Given, options: Options) -> CameraSet:
     check_bytes(len(given.data), TOML_BYTES, given.name)
     view = view_from_toml(given.text)
-    posed = PosedCamera(view.camera, options.size, fit=view.fit)
-    return CameraSet("view", (without_lens(posed) if options.ignore_distortion else posed,))
+    return CameraSet("view", (PosedCamera(view.camera, options.size, fit=view.fit),))
 
 
-def write(cameras: Sequence[PosedCamera], options: Options) -> dict[str, bytes]:
+def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
     camera = one_of(cameras)
-    return {"": view_to_toml(View(camera.camera, camera.fit)).encode()}
+    return view_to_toml(View(camera.camera, camera.fit)).encode()

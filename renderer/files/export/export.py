@@ -37,7 +37,7 @@ def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> 
     (renderer/system/cancelling.py).
     """
     target = check_export_path(path)
-    check_held(camera, size, (), "glTF")
+    check_held(camera, (), "glTF")
     data, left_out = glb_of(scene, camera, size)
     check_cancelled()
     with atomic_write(target) as file:

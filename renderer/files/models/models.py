@@ -167,6 +167,6 @@ def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) ->
 
 def _material(part: Part) -> Material:
     """Return the default material; a white one if the file has colours, which multiply it."""
-    if part.vertex_colors is None and part.face_colors is None:
+    if part.colors is None:
         return framing.MATERIAL
     return replace(framing.MATERIAL, diffuse=(1.0, 1.0, 1.0))

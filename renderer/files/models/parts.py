@@ -29,18 +29,17 @@ SPREAD = (5, 50, 95)  # percentiles of a mesh's vertices: a few stray ones do no
 class Part:
     """One geometry of a model file, as it was read.
 
-    vertices (n, 3). faces (m, 3). normals (n, 3) or None. colors,
-    linear: (n, 3) per vertex, or (m, 3) per face, or None. material: None where the file has none.
-    uv (n, 2), v up, or None; where a texture needs them. has_backs: whether a face that repeats
-    another one turned over stays: where a material is single-sided, each is seen from its side.
+    vertices (n, 3). faces (m, 3). normals (n, 3) or None. colors (n, 3), linear, or None. material:
+    None where the file has none. uv (n, 2), v up, or None; where a texture needs them. has_backs:
+    whether a face that repeats another one turned over stays: where a material is single-sided,
+    each is seen from its side.
     """
 
     name: str
     vertices: Any
     faces: Any
     normals: Any = None
-    vertex_colors: Any = None
-    face_colors: Any = None
+    colors: Any = None
     material: Material | None = None
     uv: Any = None
     has_backs: bool = False
@@ -61,8 +60,7 @@ def build_mesh(part: Part) -> Mesh | None:
     if not len(faces) or vertices is None or not count:
         return None
     check_corners(faces.reshape(-1), count)
-    face_colors = _rows(part.face_colors, len(faces), 3)
-    given = (part.normals, 3), (part.vertex_colors, 3), (part.uv, 2)
+    given = (part.normals, 3), (part.colors, 3), (part.uv, 2)
     normals, colors, uv = (_rows(rows, count, width) for rows, width in given)
     if count > 3 * len(faces):  # parts may share one list of vertices
         source, faces = used_vertices(faces)
@@ -78,15 +76,10 @@ def build_mesh(part: Part) -> Mesh | None:
     faces = faces[keep]
     if not len(faces):
         return None
-    if face_colors is not None:  # a vertex for each corner, as it can have only one colour
-        positions, normals, uv = _taken(faces.reshape(-1), positions, normals, uv)
-        colors = np.repeat(face_colors[keep], 3, axis=0)
-        faces = np.arange(len(positions)).reshape(-1, 3)
     unit = _unit(normals)
     if unit is None:
         apart = colors is not None or uv is not None
-        known = merged if face_colors is None else None
-        source, faces, unit = smooth_normals(positions, faces, known, keep_apart=apart)
+        source, faces, unit = smooth_normals(positions, faces, merged, keep_apart=apart)
     else:
         source, faces = used_vertices(faces)
         unit = unit[source]

@@ -57,10 +57,12 @@ def read_ply(path: Path, images: ModelImages) -> list[Part]:
         raise damaged("does not hold what its PLY header declares") from None
     if "tristrips" in found:
         raise LucidaError("tristrips", "are not read", "export triangles")
+    vertex, face = found.get("vertex", {}), found.get("face", {})
     names = [name for element in elements for name, _, _ in element.properties]
-    if left := [name for name in names if name not in _PLY_READ]:
+    left = [name for name in names if name not in _PLY_READ]
+    if left := left + ["colours of faces"] * ("red" in face):
         images.note(f"not read: {', '.join(left)}", "PLY")
-    return [_ply_part(found.get("vertex", {}), found.get("face", {}), path.stem)]
+    return [_ply_part(vertex, face, path.stem)]
 
 
 class _PlyElement(NamedTuple):
@@ -155,28 +157,24 @@ def _ply_part(vertex: Columns, face: Columns, name: str) -> Part:
     listed = next((name for name in _CORNERS if f"{name} count" in face), None)
     if points is None or listed is None:
         return Part(name, np.zeros((0, 3)), np.zeros((0, 3), np.int64))
-    faces, owner = _faces(points, face[listed], face[f"{listed} count"])
-    colors = linear_colors(rows(face, _COLORS))
+    faces = _faces(points, face[listed], face[f"{listed} count"])
     return Part(
         name,
         points,
         faces,
         rows(vertex, _NORMAL),
         linear_colors(rows(vertex, _COLORS)),
-        None if colors is None else colors[owner],
         uv=rows(vertex, *_PLACES),
     )
 
 
-def _faces(
-    points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Return the triangles of polygons, and the polygon of each."""
+def _faces(points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any]) -> NDArray[np.int64]:
+    """Return the triangles of polygons."""
     with np.errstate(invalid="ignore"):
         corners = corners.astype(np.int64)
     check_corners(corners, len(points))
-    places, owner = triangulated(points.astype(np.float64), corners, counts.astype(np.int64))
-    return corners[places], owner
+    places, _ = triangulated(points.astype(np.float64), corners, counts.astype(np.int64))
+    return corners[places]
 
 
 def read_off(path: Path, images: ModelImages) -> list[Part]:
@@ -205,7 +203,7 @@ def read_off(path: Path, images: ModelImages) -> list[Part]:
         raise damaged("does not hold what its OFF header declares") from None
     if kind[0].upper() != b"OFF" or (lengths[which] > counts + 1).any():
         images.note("not read: colours, normals and texture coordinates", "OFF")
-    return [Part(path.stem, points, _faces(points, corners, counts)[0])]
+    return [Part(path.stem, points, _faces(points, corners, counts))]
 
 
 def read_stl(path: Path, images: ModelImages) -> list[Part]:

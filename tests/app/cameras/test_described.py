@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from lucida import Camera
-from lucida.app.cameras.described import as_data, as_text, facts, lens_text
+from lucida.app.cameras.described import as_data, as_text, facts
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files.cameras import CameraSet, PosedCamera
 
@@ -93,25 +93,17 @@ class TestOne:
 
 
 class TestLens:
-    def test_it_says_what_a_lens_moves(self):
-        largest = 48 * 0.2 * math.hypot(2 / 3, 1 / 2) ** 3  # a corner, of the focal length 48
+    def test_it_is_named_with_its_coefficients(self):
         bent = replace(PLAIN, lens=lens(k2=0.0))
-        said = told(bent)["lens"]
-        assert said.startswith("brown, k1 = -0.2, k2 = 0: it moves points by up to 5.56 pixels, ")
-        assert largest == pytest.approx(5.56, abs=0.005)
+        assert told(bent)["lens"] == "brown, k1 = -0.2, k2 = 0"
         told_data = as_data(CameraSet("view", (PosedCamera(bent, SIZE),)))["cameras"][0]
-        assert told_data["lens"]["largest_px"] == pytest.approx(largest)
-        assert 0 < told_data["lens"]["median_px"] < largest and told_data["ignored"] is None
-        assert "moves points of the image" in told(bent, None)["lens"]
-        ignored = told(PLAIN, ignored=lens())["distortion"]
-        assert ignored.startswith("brown, k1 = -0.2 ignored: it moves points by up to 5.56 pixels")
-        assert lens_text([PosedCamera(PLAIN)]) == ""
+        assert told_data["lens"] == {"model": "brown", "k1": -0.2, "k2": 0}
+        assert "lens" not in told(PLAIN)
 
     def test_of_several_the_first_is_told(self):
-        cameras = [PosedCamera(PLAIN, SIZE, ignored=lens(k)) for k in (0.1, 0.3)]
-        said = of_set(PosedCamera(PLAIN, SIZE, "c"), *cameras)["distortion"]
-        assert said.startswith("brown, k1 = 0.1 ignored: it moves points by up to 2.78 pixels, ")
-        assert said.endswith(", the first of 2")
+        cameras = [PosedCamera(replace(PLAIN, lens=lens(k)), SIZE) for k in (0.1, 0.3)]
+        said = of_set(PosedCamera(PLAIN, SIZE, "c"), *cameras)["lens"]
+        assert said == "brown, k1 = 0.1, the first of 2"
 
 
 class TestSet:
@@ -164,5 +156,4 @@ class TestData:
             "R": R.tolist(),
             "t": t.tolist(),
             "lens": None,
-            "ignored": None,
         }

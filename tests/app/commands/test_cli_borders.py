@@ -110,7 +110,6 @@ RAYS = "def viewing_ray(i, j, width, height, camera):\n    return camera.eye, (0
 WRITERS = [
     "check --starter all -o out.py",
     "check rays.py --task viewing-ray --json out.json",
-    "camera view.toml --size 640x480 --to colmap -o out",
     "camera view.toml --size 640x480 -o out.yml --to opencv",
     "export spheres -o out.glb",
     "render canonical --renderer ray --size 9x9 -o out.png",

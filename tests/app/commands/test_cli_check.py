@@ -180,10 +180,10 @@ def test_a_program(check, tmp_path):
     assert status == 2 and "one of the arguments FILE --command --starter is required" in err
 
 
-def test_limits_of_the_command_line_come_first(check, tmp_path):
-    (tmp_path / "hw.toml").write_text("seconds = 100\n" + TASKS.format(feedback="verdict"))
+def test_a_task_file_has_limits(check, tmp_path):
+    (tmp_path / "hw.toml").write_text("seconds = 0.5\n" + TASKS.format(feedback="verdict"))
     text = "def memory_offset(i, j, width):\n    while True:\n        pass\n" + ALSO
-    status, out, _ = check(text, "--tasks", "hw.toml", "--time-limit", "0.5")
+    status, out, _ = check(text, "--tasks", "hw.toml")
     assert status == 2 and "0.5 s" in out and "wrong   hit-sphere" in out
 
 

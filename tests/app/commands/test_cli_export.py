@@ -40,7 +40,7 @@ def test_what_is_hidden_does_not_count(capsys):
         (
             ["-o", "a.glb", "--u=1,0.5,0", "--v=0,1,0"],
             "lucida: w: (0, 0.164399, 0.986394) is not with u and v at right angles, as "
-            "gltf needs; add --up=0,1,0, which makes the basis orthonormal",
+            "gltf needs; make it orthonormal (Keep orthonormal, --up, ",
         ),
     ],
 )

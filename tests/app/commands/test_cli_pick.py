@@ -51,13 +51,6 @@ def test_from_1_is_the_same_pixel(capsys):
         assert one[name] == zero[name]
 
 
-def test_both_renderers_say_the_same(capsys, gl_backend):
-    raster = pick(capsys, "20", "30", "--renderer", "raster", "--backend", gl_backend)
-    ray = pick(capsys, "20", "30")
-    assert raster["object"] == ray["object"]
-    assert raster["t"] == pytest.approx(ray["t"], rel=1e-4)
-
-
 def test_the_background_has_no_object(capsys):
     seen = pick(capsys, "0", "0", "--eye", "0,0,90")
     assert [seen[name] for name in ("object", "t", "point", "normal")] == [None] * 4
@@ -68,7 +61,7 @@ def test_the_background_has_no_object(capsys):
 def test_the_text_has_every_quantity_and_says_from_where(capsys):
     assert main(["pick", "spheres", "21", "31", "--from", "1", "--size", "64x36"]) == 0
     lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines()[:6])
-    assert lines["pixel"] == "row 21, column 31 of 64x36, from 1 (ray)"
+    assert lines["pixel"] == "row 21, column 31 of 64x36, from 1"
     assert list(lines) == ["pixel", "object", "t", "z", "point", "normal"]
 
 

@@ -141,23 +141,6 @@ class TestCompare:
         with Image.open("difference.png") as image:
             assert image.size == (96, 54)
 
-    def test_the_difference_as_false_colours(self, gl_backend):
-        arguments = [
-            "compare",
-            "spheres",
-            "--size",
-            "96x54",
-            "--backend",
-            gl_backend,
-            "-o",
-            "d.png",
-        ]
-        for show, nothing in (("absolute", (0, 0, 0)), ("signed", (255, 255, 255))):
-            assert main([*arguments, "--show", show]) == 0
-            with Image.open("d.png") as image:
-                colors = np.asarray(image)
-            assert ((colors == nothing).all(axis=2)).mean() > 0.95  # the images agree
-
     def test_disagreement_is_status_1(self, monkeypatch, capsys, gl_backend):
         import lucida.renderer.compare.raster_and_ray
 

@@ -13,7 +13,6 @@ from PIL import Image
 from lucida.app.cli import main
 from lucida.app.window import launch
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.scene.model import View
 
 LENS = {"image_width": 20, "image_height": 16, "K": [9, 9, 10, 8], "D": [0.5, 0, 0, 0]}
 
@@ -35,20 +34,13 @@ def test_a_camera_keeps_its_lens(begun: list[Any], capsys: pytest.CaptureFixture
     assert not capsys.readouterr().err
 
 
-def test_what_is_ignored_is_said(begun: list[Any], capsys: pytest.CaptureFixture) -> None:
-    assert main(["lens.json", "--ignore-distortion"]) == 0
-    assert "brown, k1 = 0.5 ignored" in capsys.readouterr().err
-    assert isinstance(begun[0]["view"], View) and begun[0]["view"].camera.lens is None
-    assert begun[0]["cameras"] is None
-
-
 def test_a_photograph_is_laid_over_the_images(begun: list[Any], capsys: Any) -> None:
     Image.new("RGB", (8, 6)).save("photo.png")
     assert main(["photo.png"]) == 0
     assert begun[0]["photograph"] == str(Path("photo.png").absolute()) and not begun[0]["code"]
     Path("broken.jpg").write_text("x")
     for name, problem in {
-        "phot.png": "does not exist; did you mean '[^']*photo.png'",
+        "phot.png": "does not exist; check its name and folder",
         "broken.jpg": "is no picture that can be read",
     }.items():
         assert main([name]) == 2

@@ -37,9 +37,6 @@ def test_a_resolution_is_seen_whole():
     state = with_options(state, images={"magnification": 8.0, "center": (0.1, 0.1)})
     state = imaging.with_resolution(state, (64, 36))
     assert (state.images.magnification, state.images.center) == (None, (0.5, 0.5))
-    assert imaging.resolution_text(state.images) == "64 x 36"
-    many = with_options(state, images={"samples": 16})
-    assert imaging.resolution_text(many.images) == "64 x 36, 16 samples"
 
 
 def test_magnifying_keeps_the_middle_and_all_of_the_image_has_its_own():
@@ -92,29 +89,22 @@ def test_pixels_have_the_colours_of_the_saved_pictures(channel):
             assert not colors & others
 
 
-def test_components_and_linear_light():
+def test_linear_light():
     color = frame().color
-    plain = np.round(srgb(color))
-    red = shown_bytes(color, replace(COLOR, component="red"), None)
-    assert np.abs(red - plain[..., :1]).max() <= 1
     linear = shown_bytes(color, replace(COLOR, transfer="linear"), None)
     assert np.abs(linear - np.clip(color, 0, 1) * 255).max() <= 0.51
-    plain, of_red = (replace(COLOR, channel="id", component=one) for one in ("rgb", "red"))
-    ids = frame().id
-    assert (shown_bytes(ids, of_red, None) == shown_bytes(ids, plain, None)).all()
 
 
 def test_values_are_written_as_the_channel_needs():
     color = np.array([[[0, 0.5, 2.0]]], np.float32)
     assert value_lines(color, COLOR) == [["  0\n188\n255"]]
-    assert value_lines(color, replace(COLOR, component="green")) == [["188"]]
     depth = replace(COLOR, channel="depth")
     assert value_lines(np.array([[3.14159, np.inf, 12345.0]]), depth) == [["3.14", "-", "1e+04"]]
     normal = replace(COLOR, channel="normal")
     assert value_lines(np.array([[[1, 0, -0.5]]]), normal) == [["+1.00\n+0.00\n-0.50"]]
     numbers = np.array([[4, 0, -1]])
     assert value_lines(numbers, replace(COLOR, channel="id")) == [["4", "0", "-"]]
-    for options in (COLOR, depth, normal, replace(COLOR, component="red")):
+    for options in (COLOR, depth, normal):
         array = np.zeros((1, 1) if options.channel == "depth" else (1, 1, 3), np.float32)
         assert value_lines(array, options)[0][0].count("\n") + 1 == line_count(options)
 

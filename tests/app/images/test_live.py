@@ -140,7 +140,7 @@ def request(x: float = 0.0, scene: Scene = SCENE) -> ImageRequest:
 
 
 def test_an_image_is_as_coarse_as_it_is_requested(rig):
-    for factor, size, channels in ((8, (10, 8), ("color",)), (1, SIZE, CHANNELS)):
+    for factor, size, channels in ((8, (10, 8), CHANNELS), (1, SIZE, CHANNELS)):
         rig.live.request(request(), factor)
         image = rig.images()[-1]
         job = rig.tracers[0].jobs[-1]

@@ -14,7 +14,6 @@ LOOKS = (
     Look(),
     Look(exposure_ev=1.0),
     Look(transfer="linear"),
-    Look(component="green"),
     Look("depth"),
     Look("normal"),
     Look("id"),

@@ -11,7 +11,6 @@ from waiting import wait_for
 
 from lucida.app.ui.recent import MOST, RecentFiles
 from lucida.app.ui.surface import Target
-from lucida.app.window import capture
 from lucida.app.window.capture import Captures, cut, free_path
 from lucida.app.window.files import Files
 from lucida.app.window.opening import OpenedScene, OpenedView, open_sources
@@ -109,46 +108,30 @@ def test_a_name_that_is_taken_gets_a_number(tmp_path):
     assert free_path(path, " ").name == "lucida 2.png"
 
 
-def test_a_picture_is_saved_and_told(tmp_path):
-    captures = Captures(lambda: None, tmp_path)
+def test_pictures_are_saved_and_told(tmp_path):
+    files = Files(lambda: None)
+    captures = Captures(files)
+    captures.folder = tmp_path
     captures.after_drawing(TARGET)
-    assert not captures.busy
-    path = captures.default_path()
-    assert path.name.startswith("lucida 20")
-    assert captures.default_path() != path  # which may not be written yet
-    captures.ask(path)
-    captures.after_drawing(TARGET)
-    wait_for(path.exists)
-    told = None
-    while told is None:
-        told = captures.poll()
-    assert told[1]
-    assert str(path) in told[0]
-    assert (np.asarray(Image.open(path)) == PIXELS).all()
-    captures.ask(tmp_path / "no" / "such" / "folder.png")
-    captures.after_drawing(TARGET)
-    told = None
-    while told is None:
-        told = captures.poll()
-    assert not told[1]
-    assert "does not exist" in told[0]
-    captures.close()
-
-
-def test_no_picture_takes_another_ones_turn(tmp_path, monkeypatch):
-    gate, write = threading.Event(), capture.atomic_write
-    monkeypatch.setattr(capture, "atomic_write", lambda to: gate.wait(PATIENT_S) and write(to))
-    captures = Captures(lambda: None, tmp_path)
-    names = [captures.default_path() for _ in range(3)]
-    for name in names:
-        captures.ask(name)
+    assert not files.busy
+    for _ in range(3):  # in one second, perhaps
+        captures.wanted = True
         captures.after_drawing(TARGET)
-    gate.set()
     told = []
-    wait_for(lambda: told.append(captures.poll()) or not captures.busy)
-    assert len(told) - told.count(None) == 3
-    assert len(set(names)) == 3 and all(name.exists() for name in names)
-    captures.close()
+    wait_for(lambda: told.extend(polled(files)) or len(told) == 3)
+    found = list(tmp_path.glob("lucida 20*.png"))
+    assert len(found) == 3
+    assert all((np.asarray(Image.open(path)) == PIXELS).all() for path in found)
+    assert all(any(str(path) in text for text in told) for path in found)
+    captures.folder, captures.wanted = tmp_path / "no" / "folder", True
+    captures.after_drawing(TARGET)
+    wait_for(lambda: polled(files) or "does not exist" in files.message)
+    files.close()
+
+
+def polled(files):
+    files.poll()
+    return files.poll_said()
 
 
 def test_a_cut_has_a_pixel_at_least():

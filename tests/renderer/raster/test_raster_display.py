@@ -5,8 +5,6 @@ import gc
 import numpy as np
 import pytest
 
-from lucida.app.images.pixelvalues import shown_bytes
-from lucida.app.state.options.shared import ImageOptions
 from lucida.renderer.images import to_srgb8
 from lucida.renderer.images.display import picture
 from lucida.renderer.images.frame import Frame
@@ -94,15 +92,6 @@ def test_channels_have_the_colours_of_saved_pictures(data, show, channel):
     difference = show(data, Look(channel)).astype(int) - picture(data, channel)
     assert np.abs(difference).max() <= 1
     assert (difference != 0).mean() < 0.01
-
-
-@pytest.mark.parametrize("channel", ["color", "normal"])
-@pytest.mark.parametrize("component", ["red", "green", "blue"])
-def test_single_components(data, show, channel, component):
-    look = Look(channel, 0.5, "srgb", component)
-    options = ImageOptions(channel, component, exposure_ev=0.5)
-    expected = shown_bytes(data.channel(channel), options, None)
-    assert np.abs(show(data, look).astype(int) - expected).max() <= 1
 
 
 def test_linear_light_without_the_curve(data, show):

@@ -1,22 +1,15 @@
-"""COLMAP: pycolmap reads and writes models, text and binary, and computes the pixels."""
+"""COLMAP: pycolmap writes models, text and binary, and computes the pixels."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
-from lucida.renderer.files.cameras import read_cameras, written
+from lucida.renderer.files.cameras import read_cameras
 from lucida.renderer.files.cameras.colmap_lenses import LENSES, MODELS
-from tests.support.format_cameras import straight_camera
-from tools.conformance.cameras import Case, any_size, cases, lens_cases, pixels, points_ahead
+from tools.conformance.cameras import any_size, pixels, points_ahead
 from tools.conformance.measured import Checked, Job, Measured, measured, needed
-
-KINDS = (
-    *("simple radial", "radial", "opencv", "plumb bob", "rational", "simple fisheye", "fisheye"),
-    *("fov", "thin prism fisheye", "equidistant", "equirectangular"),
-)
 
 
 def check(job: Job) -> Checked:
@@ -25,31 +18,10 @@ def check(job: Job) -> Checked:
     return Checked(
         f"pycolmap {pycolmap.__version__}: `Reconstruction`, `img_from_cam`",
         (
-            _ours(pycolmap, job, cases(job, straight_camera), "our model, read by pycolmap"),
             *theirs,
-            _ours(pycolmap, job, lens_cases(job, KINDS), f"our lenses, {len(KINDS)} kinds", True),
             _lenses(pycolmap, job),
         ),
     )
-
-
-def _ours(
-    pycolmap: Any, job: Job, some: Iterable[Case], what: str, beside: bool = False
-) -> Measured:
-    made = list(some)
-    for name, data in written([case.posed for case in made], "colmap").items():
-        (job.folder / name).write_bytes(data)
-    model = pycolmap.Reconstruction(str(job.folder))
-    images = {image.name: image for image in model.images.values()}
-    errors = []
-    for case in made:
-        image = images[case.posed.name]
-        camera = model.cameras[image.camera_id]
-        if (camera.width, camera.height) != case.size:
-            raise AssertionError(f"pycolmap reads the size {camera.width} x {camera.height}")
-        pose = image.cam_from_world()
-        errors.append([camera.img_from_cam(pose * point) for point in case.points] - case.pixels)
-    return measured(what, errors, beside=beside)
 
 
 def _theirs(pycolmap: Any, job: Job, kind: str) -> Measured:

@@ -27,7 +27,7 @@ def check(job: Job) -> Checked:
 def _ours(gltf: Any, job: Job) -> Measured:
     made = list(cases(job, centred_camera, parallel=True))
     path = job.folder / "ours.gltf"
-    path.write_bytes(written([case.posed for case in made], "gltf")[""])
+    path.write_bytes(written([case.posed for case in made], "gltf"))
     file = gltf.GLTF2().load(str(path))
     nodes = {node.name: node for node in file.nodes}
     errors = []

@@ -51,10 +51,9 @@ def check(job: Job) -> Checked:
 
 def _ours(cv2: Any, job: Job) -> Measured:
     errors = []
-    for number, case in enumerate(cases(job, straight_camera)):
-        K, R, t, rvec, lens = _stored(cv2, job.folder, case)
-        turn = rvec if number % 2 else cv2.Rodrigues(R)[0]
-        seen, _ = cv2.projectPoints(case.points, turn, t, K, lens)
+    for case in cases(job, straight_camera):
+        K, R, t, lens = _stored(cv2, job.folder, case)
+        seen, _ = cv2.projectPoints(case.points, cv2.Rodrigues(R)[0], t, K, lens)
         errors.append(seen[:, 0] + CORNER - case.pixels)
     return measured("our .yml, read by cv2", errors)
 
@@ -62,7 +61,7 @@ def _ours(cv2: Any, job: Job) -> Measured:
 def _ours_skewed(cv2: Any, job: Job) -> Measured:
     errors = []
     for case in cases(job, skewed_camera):
-        K, R, t, _, _ = _stored(cv2, job.folder, case)
+        K, R, t, _ = _stored(cv2, job.folder, case)
         errors.append(sight(K, R, t[:, 0], case.points) + CORNER - case.pixels)
     return measured("ours with a skew or a mirror, read by cv2, K (R p + t) by hand", errors)
 
@@ -70,7 +69,8 @@ def _ours_skewed(cv2: Any, job: Job) -> Measured:
 def _our_lenses(cv2: Any, job: Job) -> Measured:
     errors = []
     for case in lens_cases(job, KINDS):
-        K, _, t, turn, lens = _stored(cv2, job.folder, case)
+        K, R, t, lens = _stored(cv2, job.folder, case)
+        turn = cv2.Rodrigues(R)[0]
         project = cv2.fisheye.projectPoints if lens.size == 4 else cv2.projectPoints
         seen, _ = project(case.points[:, None], turn, t, K, lens)
         errors.append(seen.reshape(-1, 2) + CORNER - case.pixels)
@@ -78,14 +78,14 @@ def _our_lenses(cv2: Any, job: Job) -> Measured:
 
 
 def _stored(cv2: Any, folder: Path, case: Case) -> list[Floats]:
-    """Return K, R, t, rvec and the distortion that FileStorage reads in our file."""
+    """Return K, R, t and the distortion that FileStorage reads in our file."""
     path = folder / "ours.yml"
     path.write_bytes(case.file("opencv", Options()))
     storage = cv2.FileStorage(str(path), cv2.FILE_STORAGE_READ)
     size = tuple(int(storage.getNode(f"image_{side}").real()) for side in ("width", "height"))
     if size != case.size:
         raise AssertionError(f"cv2 reads the size {size}, not {case.size}")
-    names = ("camera_matrix", "R", "t", "rvec", "distortion_coefficients")
+    names = ("camera_matrix", "R", "t", "distortion_coefficients")
     found = [storage.getNode(name).mat() for name in names]
     storage.release()
     return found

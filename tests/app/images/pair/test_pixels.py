@@ -48,8 +48,6 @@ class TestCompare:
         )
         assert (zero["pixels_from"], one["pixels_from"]) == (0, 1)
         assert one["worst"] == [part + 1 for part in zero["worst"]]
-        worst = [report["errors"]["depth"]["worst"] for report in (zero, one)]
-        assert worst[1] == [part + 1 for part in worst[0]]
         for first, more in ((0, ()), (1, ("--from", "1"))):
             text = self.compare(capsys, gl_backend, *more)
             found = re.search(r"at row (\d+), column (\d+) \(from (\d)\)", text)

@@ -6,11 +6,12 @@ import json
 from pathlib import Path
 
 import numpy as np
+from format_cameras import colmap_model, transforms_json
 from numpy.typing import NDArray
 
 from lucida.app.instruments.poses.model import PoseSet, pose_set
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.files.cameras import CameraSet, PosedCamera, written
+from lucida.renderer.files.cameras import CameraSet, PosedCamera
 
 SIZE = (80, 60)
 
@@ -35,7 +36,7 @@ def a_set(
 
 def transforms(path: Path, count: int = 5) -> Path:
     """A data set's file, whose frames name images/000.png and so on beside it."""
-    table = json.loads(written(ring(count), "nerf")[""])
+    table = json.loads(transforms_json(ring(count)))
     for k, frame in enumerate(table["frames"]):
         frame["file_path"] = f"./images/{k:03}.png"
     path.write_text(json.dumps(table))
@@ -44,9 +45,7 @@ def transforms(path: Path, count: int = 5) -> Path:
 
 def colmap(folder: Path, count: int = 5, points: int = 50) -> Path:
     """A model in a folder, with points in a box of side 1."""
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, data in written(ring(count, "{:03}.png"), "colmap").items():
-        (folder / name).write_bytes(data)
+    colmap_model(folder, ring(count, "{:03}.png"))
     places = np.random.default_rng(1).uniform(-0.5, 0.5, (points, 3))
     lines = [f"{k} {x} {y} {z} 200 100 50 0.1 1 2\n" for k, (x, y, z) in enumerate(places)]
     (folder / "points3D.txt").write_text("".join(lines))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 import threading
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from format_cameras import colmap_model, transforms_json
 from sets_of_cameras import a_set, colmap, ring, transforms
 from waiting import wait_for
 
@@ -59,10 +59,12 @@ def test_a_colmap_model_is_a_set_with_its_points(tmp_path: Path, given: str) -> 
 def test_a_file_with_one_camera_is_a_view(tmp_path: Path, name: str, file: str) -> None:
     path = tmp_path / file
     camera = ring(1)[0]
-    data = written([replace(camera, image="" if name != "colmap" else camera.image)], name)
-    (path if "" not in data else tmp_path).mkdir(exist_ok=True)
-    for part, text in data.items():
-        (path / part if part else path).write_bytes(text)
+    if name == "colmap":
+        colmap_model(path, [camera])
+    elif name == "nerf":
+        path.write_text(transforms_json([camera]))
+    else:
+        path.write_bytes(written([camera], name))
     found = open_cameras(str(path))
     assert isinstance(found, TakenCamera)
     assert found.said.startswith(f"The camera is {path.name}'s: ")

@@ -11,7 +11,7 @@ from lucida.app.images.compare.view import waiting
 from lucida.app.images.progressive_ray import RayImage
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, SHADING
-from lucida.renderer.images.difference import false_color, signed_difference
+from lucida.renderer.images.difference import difference, false_color
 from lucida.renderer.images.frame import Frame
 
 NAME = "Compare"
@@ -117,9 +117,9 @@ def check_false_colours(d):
     for gain in (1.0, 8.0):
         show(d, gain=gain)
         both = comparison(d)
-        difference = signed_difference(both.raster, both.ray)
+        differing = difference(both.raster, both.ray)
         seen = shown(d)
-        assert close(seen, false_color(difference, "color", gain)), f"gain {gain}"
+        assert close(seen, false_color(differing, "color", gain)), f"gain {gain}"
         assert seen[45, 50].any() and not seen[80, 150].any()
     d.change(images={"channel": "depth"})
     d.settle()

@@ -1,11 +1,9 @@
 """The image windows: sizes and layouts, channels, resolutions, display."""
 
 import numpy as np
-from imgui_bundle import imgui
 from shown_pixels import ALT, choose, counting, pixels, without_overlays
 from window_driver import SIZE, Key
 
-from lucida.app.images.pair.actions import LINEAR
 from lucida.app.images.pair.view import RASTER, RAY
 from lucida.renderer.raster import Display
 
@@ -96,24 +94,6 @@ def drive_channels_follow_a_drag(d):
     hits = frame.depth[np.isfinite(frame.depth)]
     assert abs(near - hits.min()) < 1e-4
     assert abs(far - hits.max()) < 1e-3
-
-
-def drive_the_strip_does_the_same(d):
-    d.ctx.set_ref(f"//###{RASTER}")
-    for name, item, check in (
-        ("channel", "Depth", lambda images: images.channel == "depth"),
-        ("resolution", "160 x 90", lambda images: images.resolution == (160, 90)),
-        ("magnification", "16x", lambda images: images.magnification == 16),
-        ("channel", LINEAR.name, lambda images: images.transfer == "linear"),
-        ("channel", "Red only", lambda images: images.component == "red"),
-    ):
-        d.click(f"**/##{name}")
-        d.click(f"//$FOCUSED/{item}")
-        d.settle()
-        assert check(d.state.images), item
-    d.ctx.set_ref("")
-    assert d.steps == 1  # the resolution
-    assert imgui.get_io().display_size.x > 0
 
 
 def drive_nothing_is_drawn_twice(d):

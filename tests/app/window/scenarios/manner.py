@@ -155,7 +155,7 @@ def drive_pictures_show_what_the_window_shows(d):
     window = np.asarray(Image.open(next(shell.captures.folder.glob("*.png"))))
     assert window.shape == (SIZE[1], SIZE[0], 3)
     assert window.std() > 20
-    d.until(lambda: not shell.captures.busy)
+    d.until(lambda: not d.files.busy)
     d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
 
 
@@ -243,7 +243,8 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):
     window = d.window
     d.change(marked=(20, 30))
     d.settle()
-    d.click("//Raster/strip Raster/##channel")
+    d.ctx.menu_action(TestAction.hover, "//##MainMenuBar/Image/Resolution")
+    d.frames(20)
     any_popup = int(imgui.PopupFlags_.any_popup)
     assert imgui.is_popup_open("", any_popup)
     d.press(Key.escape)

@@ -6,8 +6,6 @@ from window_driver import Key
 from lucida.app.instruments.outside.projected import Strokes
 from lucida.app.instruments.outside.view import OUTSIDE, OutsideView
 from lucida.app.instruments.stepper.view import STEPPER
-from lucida.app.window.action_table import ACTIONS
-from lucida.app.window.shortcut_sheet import sections
 
 WINDOW = f"//###{STEPPER}"
 
@@ -77,24 +75,11 @@ def drive_the_outside_view_shows_the_ray_and_the_triangle(d):
     d.frames(4)
 
 
-def drive_the_menu_and_the_keys_step(d):
+def drive_the_keys_step(d):
     enter(d, steps=(5, 5), canvas=(16, 12))
     assert not d.renderers.is_tracing  # so that no verdict on both images is announced
-    offered = {action.name: action for action in ACTIONS}
-    rows = dict(sections())["Loop stepper, once it is clicked"]
-    for name, keys, key, steps in (
-        ("Stepper: one line on", "Right", "right_arrow", (6, 6)),
-        ("Stepper: one line back", "Left", "left_arrow", (5, 5)),
-        ("Stepper: to the beginning", "Home", "home", (0, 0)),
-    ):
-        action = offered[name]
-        assert action.keys == keys
-        assert (keys, name.removeprefix("Stepper: ")) in rows
-        before = d.options.stepper.steps
-        action.run(d.window)
-        d.frames(3)
-        assert d.options.stepper.steps == steps
-        d.change(stepper={"steps": before})
+    for key, steps in (("right_arrow", (6, 6)), ("left_arrow", (5, 5)), ("home", (0, 0))):
+        d.change(stepper={"steps": (5, 5) if key != "left_arrow" else (6, 6)})
         d.ctx.window_focus(WINDOW)
         d.frames(2)
         d.press(int(getattr(Key, key)))

@@ -8,6 +8,7 @@ from imgui_bundle import hello_imgui
 
 from lucida.app.checking.tasks import Limits
 from lucida.app.checking.your_code import runs
+from lucida.app.checking.your_code.panel import RUNNING_S
 from lucida.app.checking.your_code.view import YOUR_CODE, YourCode
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.paths import stored
@@ -116,7 +117,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     write(d, RIGHT.replace("x = camera.left", "x = camera.lft"))
     until_told(d, "rays.py, line 2", "lft")
     (d.folder / "rays.py").unlink()
-    view(d).ask("run")
+    d.click(f"{WINDOW}/###run")
     until_told(d, "does not exist")
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
@@ -134,7 +135,9 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
     assert its.busy
     processes = children()
     assert processes
-    view(d).ask("stop")
+    d.until(lambda: its.running_s > RUNNING_S)
+    d.frames(2)
+    d.click(f"{WINDOW}/###stop")
     until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
     d.until(lambda: not its.busy)
     d.until(lambda: not (children() & processes))

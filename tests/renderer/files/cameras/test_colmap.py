@@ -10,7 +10,7 @@ import pytest
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files.cameras import PosedCamera, read_cameras, written
-from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.system.errors import LucidaError
 
 CAMERAS = """\
 # Camera list with one line of data per camera:
@@ -139,11 +139,9 @@ def test_a_photograph_is_never_looked_for_outside_of_its_folder(tmp_path, name):
     assert (found.cameras[0].name, found.cameras[0].image) == (name, "")
 
 
-def test_the_size_that_was_asked_for_fits_a_camera_that_has_none():
-    posed = PosedCamera(Camera(), fit=True)
-    files = written([posed, posed], "colmap", Options(size=(200, 100)))
-    assert b"cameras: 1\n1 PINHOLE 200 100 100 100 100 50" in files["cameras.txt"]
-    assert b"image_0001.png" in files["images.txt"]
+def test_a_model_is_only_read():
+    with pytest.raises(LucidaError, match="'colmap' is only read; give one of view, opengl,"):
+        written([PosedCamera(Camera(), (64, 48))], "colmap")
 
 
 def test_known_poses_have_no_points(tmp_path: Path) -> None:

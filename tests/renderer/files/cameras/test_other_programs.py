@@ -20,17 +20,8 @@ Camera1.cx: 330.0
 Camera1.cy: 235.0
 Camera1.k1: 0.01
 Camera1.k2: 0.02
-Camera2.fx: 501
-Camera2.fy: 511.
-Camera2.cx: 331.0
-Camera2.cy: 236.0
 Camera.width: 640
 Camera.height: 480
-Stereo.T_c1_c2: !!opencv-matrix
-  rows: 4
-  cols: 4
-  dt: f
-  data: [1, 0, 0, 0.25, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
 """
 STELLA = """Camera:
   name: "a camera"
