@@ -33,7 +33,9 @@ run:
 	@$(PYTHON_IN_VENV) -P -m lucida $(ARGS)
 
 # Two processes more than processors, each with whole files or classes. ARGS="-n 0": all in one process.
-# Nothing may follow: pytest's closing line is the last.
+# Nothing may follow: pytest's closing line is the last. Bytecode is kept: some hundred processes
+# would compile all modules anew.
+test: export PYTHONDONTWRITEBYTECODE =
 test:
 	@sh scripts/setup.sh tests
 	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadscope --no-loadscope-reorder $(ARGS)

@@ -6,6 +6,7 @@ otherwise tests run on the first that works.
 """
 
 import os
+import subprocess
 import sys
 
 import pytest
@@ -29,17 +30,22 @@ settings.load_profile("lucida")
 
 def pytest_sessionstart(session):
     """Compile the tracer into the cache: or the first test that traces would wait for it, and hear
-    of it. Before several processes run all tests, all of it: or each would compile the same. Not
-    where a few tests run on their own, for another processor."""
-    if not hasattr(session.config, "workerinput") and "NUMBA_CPU_NAME" not in os.environ:
-        is_whole = session.config.args_source is pytest.Config.ArgsSource.TESTPATHS
-        if is_whole and session.config.getoption("numprocesses", None):
-            of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
+    of it. Before several processes run all tests, all of it, and all tests' modules: or each would
+    compile the same. Not where a few tests run on their own, for another processor."""
+    if hasattr(session.config, "workerinput") or session.config.option.collectonly:
+        return
+    if "NUMBA_CPU_NAME" in os.environ:
+        return
+    is_whole = session.config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    if is_whole and session.config.getoption("numprocesses", None):
+        of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
+        collect = [sys.executable, "-m", "pytest", "--collect-only", "-q"]
+        with subprocess.Popen(collect, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL):
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
-        scene = load_scene(BUILTIN_SCENES[0])
-        for shadows in (False, True):
-            with Tracer(scene, shadows=shadows) as tracer:
-                tracer.render(scene.view.for_size((64, 36)), (64, 36))
+    scene = load_scene(BUILTIN_SCENES[0])
+    for shadows in (False, True):
+        with Tracer(scene, shadows=shadows) as tracer:
+            tracer.render(scene.view.for_size((64, 36)), (64, 36))
 
 
 def pytest_xdist_auto_num_workers():

@@ -1,8 +1,8 @@
 """Drives the real window with ImGui's test engine, on GLFW's null platform; a process of its own.
 
-    python window_driver.py REPORT.json FOLDER TOPIC [PART OF A NAME ...]
+    python window_driver.py REPORT.json FOLDER TOPIC[::DRIVE] ...
 
-runs every function of scenarios/TOPIC.py whose name begins with `drive_` (or those named), in
+runs every function of scenarios/TOPIC.py whose name begins with `drive_` (or the one named), in
 order, in one window, and writes a JSON object from their names to "" or the traceback of their
 failure. Pictures of the window are left in FOLDER. test_window.py runs it and tells the results.
 """
@@ -32,10 +32,11 @@ from PIL import Image
 
 from lucida.app.images.pair import image_view
 from lucida.app.images.pair.view import RASTER, RAY
+from lucida.app.instruments.outside import ground
 from lucida.app.instruments.outside import mouse as outside_mouse
 from lucida.app.state.app_state import AppState, History
 from lucida.app.state.options import Options
-from lucida.app.ui import toasts
+from lucida.app.ui import layout, toasts
 from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.app.window import main_window, viewer
@@ -49,6 +50,7 @@ SIZE = (1100, 720)
 # On a slow or busy machine a turn of the wheel takes long: no picture may depend on that.
 image_view.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = 10.0
 toasts.SHOWN_S = 1e9  # nor what is still told
+ground.SHIFTS = ground.SHIFTS[-1:]  # one picture in place of the mean of five, for smooth edges
 FRAME_S = 1 / 60  # what ImGui takes a frame for: clicks are double ones however slow frames are
 PROMPT_FRAMES = 8  # what the window does by itself takes some frames; threads take longer
 WAIT_S = 0.05
@@ -135,6 +137,19 @@ class Driver:
         self.ctx.mouse_up(0)  # a test that failed may hold it
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
         self.resize(SIZE)
+
+    def begin_topic(self) -> None:
+        """Put the views where they are in a new window: topics share one."""
+        if self.window.lecture.is_given:
+            self.window.lecture.leave(self.window)
+        self.stage.maximised = ""
+        for one in (*layout.LAYOUTS[1:], layout.LAYOUTS[0]):
+            layout.switch(one.name)
+            self.frames(5)
+            for view in self.stage.views.values():
+                layout.window_of(view).is_visible = view.name in one.places
+            layout.reset()
+            self.frames(5)
 
     def resize(self, size: tuple[int, int]) -> None:
         """Resize the window, and wait until it is drawn so."""
@@ -326,13 +341,15 @@ def close_at_work(report: Path, folder: Path) -> None:
     report.write_text(json.dumps({"close_at_work": "" if busy else "the tracer was not at work"}))
 
 
-def drives(topic: str) -> dict[str, Callable[[Driver], None]]:
-    """The functions of scenarios/TOPIC.py, which import this module."""
+def drives(names: list[str]) -> dict[str, Callable[[Driver], None]]:
+    """Return drives by their names, TOPIC::DRIVE. The scenarios import this module."""
     sys.modules["window_driver"] = sys.modules[__name__]
-    found = runpy.run_path(
-        str(Path(__file__).parents[1] / "app" / "window" / "scenarios" / f"{topic}.py")
-    )
-    return {name: test for name, test in found.items() if name.startswith("drive_")}
+    scenarios = Path(__file__).parents[1] / "app" / "window" / "scenarios"
+    found = {}
+    for topic in dict.fromkeys(name.partition("::")[0] for name in names):
+        functions = runpy.run_path(str(scenarios / f"{topic}.py")).items()
+        found |= {f"{topic}::{name}": one for name, one in functions if name.startswith("drive_")}
+    return {one: drive for one, drive in found.items() if {one, one.partition("::")[0]} & {*names}}
 
 
 def ignore_broken_pipes() -> None:
@@ -342,10 +359,10 @@ def ignore_broken_pipes() -> None:
         signal.signal(signal.SIGPIPE, signal.SIG_IGN)
 
 
-def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
-    tests = drives(topic)
-    tests = {n: t for n, t in tests.items() if not only or any(part in n for part in only)}
+def main(report: Path, folder: Path, names: list[str]) -> None:
+    tests = drives(names)
     results = dict.fromkeys(tests, "was not run")
+    firsts = {one.partition("::")[0]: one for one in reversed(tests)}.values()
     driver = Driver(folder)
     params = driver.run.params
 
@@ -354,6 +371,8 @@ def main(report: Path, folder: Path, topic: str, only: list[str]) -> None:
             driver.ctx = ctx
             try:
                 driver.reset()
+                if name in firsts:
+                    driver.begin_topic()
                 test(driver)
                 results[name] = "the test engine found an error" if ctx.is_error() else ""
             except BaseException:
@@ -389,4 +408,4 @@ if __name__ == "__main__":
     if sys.argv[3:] == ["close_at_work"]:
         close_at_work(Path(sys.argv[1]), Path(sys.argv[2]))
     else:
-        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3], sys.argv[4:])
+        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:])

@@ -76,11 +76,11 @@ def source_hash() -> str:
     """Return a hash of the compiled code.
 
     It covers the tracer's sources and those that they depend on, the scene's layout and the shared
-    numbers; the versions of Python and the compilers; and the processor, since several may share a
-    folder.
+    numbers; their place, by which numba keeps machine code; the versions of Python and the
+    compilers; and the processor, since several may share a folder.
     """
     sources = sorted(TRACE_FOLDER.rglob("*.py"))
-    digest = hashlib.sha256()
+    digest = hashlib.sha256(os.fsencode(TRACE_FOLDER))
     for path in (
         *sources,
         Path(lucida.renderer.scene.flat.__file__),

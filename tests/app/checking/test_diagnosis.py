@@ -37,6 +37,7 @@ RAY_TASKS = {
 }  # fmt: skip
 TASKS = {task.name: task for task in BUILTIN}
 VALUES = [task for task in BUILTIN if task.kind != "viewing-ray" and "parallel" not in task.name]
+SHARES = 2  # of the mistakes in rays, each of which takes a search through all others
 LOOPS = 30  # mistakes in the lines of both loops; the others are those of rays
 
 
@@ -75,13 +76,17 @@ def same(rays: NDArray[np.float64], others: NDArray[np.float64]) -> bool:
 
 @pytest.mark.parametrize("name", RAY_TASKS)
 def test_each_mistake_in_rays_is_named(name):
-    """Use four cameras together, with rays of length 1, every fourth mistake in float32."""
+    """Use four cameras together, with rays of length 1, every fourth mistake in float32. Each task
+    has its share of the mistakes."""
     task = ray_task_of(**RAY_TASKS[name])
     program, cases = program_of(task), made_cases(2, 4, task.projection)
-    right, named = right_rays(cases), 0
+    right, named, unseen = right_rays(cases), 0, 0
     all_rays = {one: rays_with(task, cases, (one,)) for one in program.mistakes}
-    for mistake, rays in all_rays.items():
+    share = list(program.mistakes)[list(RAY_TASKS).index(name) % SHARES :: SHARES]
+    for mistake in share:
+        rays = all_rays[mistake]
         if same(rays, right):
+            unseen += 1
             continue
         named += 1
         length = np.linalg.norm(rays[:, 1:], axis=2, keepdims=True)
@@ -93,7 +98,7 @@ def test_each_mistake_in_rays_is_named(name):
         assert (mistake,) in found, mistake.name
         for (other,) in found:
             assert same(rays, all_rays[other]), (mistake.name, other)
-    assert named >= len(program.mistakes) - 3
+    assert unseen <= 3 and named > 10
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])

@@ -63,7 +63,7 @@ def pages(browser, scenes, tmp_path_factory):
     for name, scene in scenes.items():
         file = tmp_path_factory.mktemp("pages") / f"{name}.html"
         file.write_text(scene_page(scene, scene.view), encoding="utf-8")
-        made[name] = Page(browser, file, viewport={"width": 1280, "height": 720})
+        made[name] = Page(browser, file, viewport={"width": 880, "height": 500})
         made[name].tab.evaluate("lucida.ready")
     return made
 

@@ -19,14 +19,18 @@ DRIVER = TESTS / "support" / "window_driver.py"
 PATH = os.pathsep.join((str(TESTS.parent), str(TESTS / "support")))
 LIMIT_S = 560  # one window
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
-DRIVES_LIMIT_S = 1500  # a topic with many drives, on a busy machine; the first compiles the tracer
+DRIVES_LIMIT_S = 1500  # a window with many drives, on a busy machine
 drives_take_long = pytest.mark.timeout(DRIVES_LIMIT_S + 60)
-DRIVES = [
-    (path.stem, node.name)
-    for path in sorted((Path(__file__).parent / "scenarios").glob("*.py"))
-    for node in ast.parse(path.read_text()).body
-    if isinstance(node, ast.FunctionDef) and node.name.startswith("drive_")
-]
+WINDOWS = 8  # each takes seconds to open: topics share them
+TOPICS = sorted((Path(__file__).parent / "scenarios").glob("*.py"))
+DRIVES = {
+    path.stem: [
+        f"{path.stem}::{node.name}"
+        for node in ast.parse(path.read_text()).body
+        if isinstance(node, ast.FunctionDef) and node.name.startswith("drive_")
+    ]
+    for path in TOPICS
+}
 
 
 def environment(folder, display=None):
@@ -57,23 +61,40 @@ def drive(folder, *names):
 
 
 @pytest.fixture(scope="module")
-def driven(tmp_path_factory):
-    """Return the results of a topic, whose drives share one window."""
-    return functools.cache(lambda topic: drive(tmp_path_factory.mktemp(topic), topic))
+def driven(request, tmp_path_factory):
+    """Return the results of a window's drives, of those that are asked for in this run."""
+    asked = [
+        item.callspec.params["name"]
+        for item in request.session.items
+        if hasattr(item, "callspec") and "driven" in item.fixturenames
+    ]
+
+    @functools.cache
+    def of_window(number):
+        names = [name for name in _of_window(number) if name in asked]
+        return drive(tmp_path_factory.mktemp(f"window{number}"), *names)
+
+    return of_window
 
 
-def _of_topic(topic):
+def _of_window(number):
+    """The names of its drives."""
+    topics = list(DRIVES)[number::WINDOWS]
+    return [name for topic in topics for name in DRIVES[topic]]
+
+
+def _tests_of(number):
     """A class of tests: one process gets it whole, so that its drives share one window."""
 
     @drives_take_long
-    @pytest.mark.parametrize("name", [name for of, name in DRIVES if of == topic])
+    @pytest.mark.parametrize("name", _of_window(number))
     def test(self, driven, name):
-        assert driven(topic)[name] == ""
+        assert driven(number)[name] == ""
 
-    return type(f"Test_{topic}", (), {"test": test})
+    return type(f"Test_window_{number}", (), {"test": test})
 
 
-globals().update((f"Test_{topic}", _of_topic(topic)) for topic, _ in DRIVES)
+globals().update((f"Test_window_{number}", _tests_of(number)) for number in range(WINDOWS))
 
 
 @drives_take_long

@@ -15,7 +15,7 @@ from numba.core import caching
 import lucida
 from lucida.renderer.system import compile_note
 from lucida.renderer.trace.compile import compiled
-from lucida.renderer.trace.compile.cache_folder import prune
+from lucida.renderer.trace.compile.cache_folder import prune, source_hash
 
 HANG_S = 280
 SMALL_KERNEL = """
@@ -93,6 +93,7 @@ def test_a_read_only_installation_caches_for_the_user(installation, tmp_path):
         folder = finish(process).rsplit(" ", 1)[0]
         assert Path(folder).is_relative_to(cache)
     assert finish(start(installation, cache)) == f"{folder} True"
+    assert Path(folder).name != source_hash()  # of the same sources at another place
 
     # A damaged file costs compiling again: at once, and at the next start for the cache.
     for file in Path(folder).rglob("*.nb?"):

@@ -28,17 +28,18 @@ def test_all_loops_end_in_the_renderers_image(name: str, rasterizer) -> None:
     scene = load_scene(name)
     model = Model(scene)
     own, *others = cameras(scene, np.random.default_rng(7))
-    mirrored = [replace(one, u=tuple(-x for x in one.u)) for one in (own, others[0])]  # wound back
+    other = others[BUILTIN_SCENES.index(name) % len(others)]  # each kind in some scene
+    mirrored = replace(other, u=tuple(-x for x in other.u))  # wound back
     rasterizer.set_scene(scene)
     hits = 0
     with Tracer(scene) as tracer, Tracer(scene, method="reference") as reference:
-        for number, camera in enumerate((own, *others, *mirrored)):
+        for number, camera in enumerate((own, other, mirrored)):
             by_triangles, by_image = (
                 run(model, camera, SIZE).array for run in (rasterization, image_order)
             )
             exact = reference.render(camera, SIZE, channels=CHANNELS)
             np.testing.assert_allclose(by_image, exact.color, rtol=1e-6, atol=1e-7)
-            if camera not in (own, mirrored[0]):
+            if camera is not own:
                 # No centre lies on an edge, or on the line of a checker, where rounding decides.
                 np.testing.assert_allclose(by_triangles, by_image, atol=1e-9, err_msg=number)
             # The loops' colours with the other channels of the same rays: agreement is 2/255, or
@@ -52,7 +53,7 @@ def test_all_loops_end_in_the_renderers_image(name: str, rasterizer) -> None:
                     assert result.agree > 0.95 * result.pixels, result.summary()
                     assert result.max_color_error <= 2 / 255
             hits += int((exact.id >= 0).sum())
-    assert hits > 300
+    assert hits > 150
 
 
 # The code on the screen is the code that runs.
