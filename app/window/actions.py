@@ -16,6 +16,7 @@ from lucida.app.window import bookmarks
 from lucida.app.window.documents import ABOUT, FIRST, GETTING_STARTED
 from lucida.app.window.exporting import ask_export
 from lucida.app.window.figure_box import ask_figure
+from lucida.app.window.platform import toggle_full_screen
 
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)
@@ -123,7 +124,7 @@ LOOK = (
         lambda w: w.shell.maximise(),
         "Ctrl+M",
     ),
-    Action("View", "Full screen", lambda w: w.shell.toggle_full_screen(), "F11"),
+    Action("View", "Full screen", lambda w: toggle_full_screen(), "F11"),
     choosing("View", "Presentation", "preferences.presentation", True, "F9", off=False),
     _theme("dark", "Dark theme"),
     _theme("light", "Light theme"),

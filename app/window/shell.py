@@ -27,7 +27,6 @@ from lucida.app.window.capture import Captures
 from lucida.app.window.documents import Documents
 from lucida.app.window.files import Files
 from lucida.app.window.hints import Hints
-from lucida.app.window.platform import toggle_full_screen
 from lucida.app.window.proportion import Proportion
 from lucida.app.window.session_store import Keeper
 from lucida.app.window.shortcut_sheet import help_sheet
@@ -84,9 +83,6 @@ class Shell:
 
     def open_document(self, name: str) -> None:
         self.documents.open(name)
-
-    def toggle_full_screen(self) -> None:
-        toggle_full_screen()
 
     def picture(self) -> None:
         """Save a picture of the window, in the folder of pictures."""
