@@ -21,13 +21,12 @@ from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 
 Form = Literal[
-    "view file", "Python", "OpenGL matrices", "OpenCV", "NeRF", "glTF"
+    "view file", "Python", "OpenGL matrices", "OpenCV", "glTF"
 ]  # fmt: skip
 FORMS: tuple[Form, ...] = get_args(Form)
 # Those of other programs, by the format's name.
 FORMATS_OF: dict[Form, str] = {
     "OpenCV": "opencv",
-    "NeRF": "nerf",
     "glTF": "gltf",
 }
 

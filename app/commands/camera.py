@@ -34,9 +34,9 @@ Describe a camera of any format: eye, basis, viewport, d, fields of view, focal 
 point, and the conventions of its file. With --to or -o, write it in another format."""
 
 EPILOG = """\
-formats: view (Lucida's view file), opencv (also ROS, ORB-SLAM, VINS and Kalibr), colmap (only
-read), nerf, gltf (for Blender, three.js and engines), opengl. docs/cameras.md says what each holds,
-and has the formulas.
+formats: view (Lucida's view file), opencv (also ROS, ORB-SLAM, VINS and Kalibr), gltf
+(for Blender, three.js and engines), opengl; colmap and nerf are only read. docs/cameras.md says
+what each holds, and has the formulas.
 
 If a file has several cameras, INPUT#12 or INPUT#IMG_7.jpg selects one.
 Otherwise all are written, if the format holds several, and none if it cannot hold one of them.
@@ -46,7 +46,7 @@ examples:
   lucida camera transforms.json                     what it holds
   lucida camera transforms.json#12                  one of its cameras, with all numbers
   lucida camera transforms.json#12 -o corner.toml
-  lucida camera sparse/0 --to nerf -o transforms.json
+  lucida camera sparse/0 -o cameras.gltf
   lucida camera corner.toml --to opencv --size 1280x720"""
 
 
@@ -105,8 +105,8 @@ def run(arguments: argparse.Namespace) -> int:
         text = data.decode()
         sys.stdout.write(visible(text) if sys.stdout.isatty() else text)
     else:
-        with atomic_write(arguments.output) as file:
-            file.write(data)
+        with atomic_write(arguments.output) as out:
+            out.write(data)
         told = counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
     say_notes(found, file)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from trimesh.transformations import quaternion_from_matrix
@@ -91,6 +94,24 @@ def _camera(
 def any_size(random: np.random.Generator) -> Size:
     width, height = random.integers(100, 2000, 2).tolist()
     return width, height
+
+
+def transforms_json(cameras: Sequence[PosedCamera]) -> str:
+    """Return cameras in perspective as nerfstudio writes them, with their lenses."""
+    frames = []
+    for posed in cameras:
+        assert posed.size is not None
+        pose = np.eye(4)
+        pose[:3, :3], pose[:3, 3] = posed.camera.basis, posed.camera.eye
+        (fx, _, cx), (_, fy, cy), _ = posed.camera.intrinsics(posed.size, "corner").K.tolist()
+        optics: dict[str, Any] = {"fl_x": fx, "fl_y": fy, "cx": cx, "cy": cy}
+        optics |= dict(zip("wh", posed.size, strict=True))
+        if posed.camera.lens is not None:
+            optics |= posed.camera.lens.coefficients
+        frames.append({"file_path": posed.name, "transform_matrix": pose.tolist(), **optics})
+    lenses = {posed.camera.lens.model for posed in cameras if posed.camera.lens is not None}
+    model = "OPENCV_FISHEYE" if "fisheye" in lenses else "OPENCV"
+    return json.dumps({"camera_model": model, "frames": frames})
 
 
 def colmap_model(folder: Path, cameras: list[PosedCamera]) -> None:

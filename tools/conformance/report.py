@@ -19,7 +19,7 @@ WHAT = {
     "view": "Lucida's [view file](files.md#view-files), .toml",
     "opencv": "K, R, t or rvec, lens: FileStorage .yml, .json and .xml, and what is listed below",
     "colmap": "cameras and images in a folder, .bin or .txt, with lenses; only read",
-    "nerf": "transforms.json of NeRF, instant-ngp and nerfstudio, with lenses",
+    "nerf": "transforms.json of NeRF, instant-ngp and nerfstudio, with lenses; only read",
     "gltf": "the cameras of a .gltf or .glb file at their nodes",
     "opengl": "view and projection matrix, .txt, by columns or rows",
 }

@@ -2,7 +2,7 @@
 
 K is in pixels measured from the image's corner; a pose is camera-from-world, with y down and z
 forward. The files of rigs and frames, which newer versions write, add nothing to the images and are
-ignored. Models are read only: a set of cameras is written as NeRF's or as glTF.
+ignored. Models are only read: a set of cameras is written as glTF.
 Source: COLMAP's documentation, "Output Format".
 """
 

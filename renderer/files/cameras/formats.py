@@ -59,7 +59,7 @@ _K = "camera_matrix, K, P, or fx and fy"
 FORMATS = (
     Format("view", "Lucida's view file", "a table [camera]", (".toml",)),
     Format("colmap", "COLMAP's model", "the files cameras and images", ()),
-    Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, (".json",)),
+    Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, ()),
     Format("opengl", "OpenGL's view and projection matrices", _MATRICES, (".txt",)),
     Format("opencv", "OpenCV's K, R and t, or a calibration of its family", _K, (".yml",)),
     Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf",)),

@@ -1,4 +1,5 @@
-"""NeRF's cameras: transforms.json as the synthetic scenes, instant-ngp and nerfstudio write it.
+"""NeRF's cameras: transforms.json as the synthetic scenes, instant-ngp and nerfstudio write it. It
+is only read.
 
 transform_matrix is camera-to-world, with OpenGL's axes: x right, y up, looking along -z. A
 camera_model is the whole file's.
@@ -8,10 +9,9 @@ Cameras._generate_rays_from_coords(); instant-ngp, "NeRF dataset tips" and commo
 
 from __future__ import annotations
 
-import json
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -31,9 +31,8 @@ from lucida.renderer.files.cameras.entries import (
     size_of,
 )
 from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image
-from lucida.renderer.files.cameras.rigid import pinhole, pose_of
-from lucida.renderer.system.errors import LucidaError, under
+from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
+from lucida.renderer.system.errors import LucidaError
 
 Table = Mapping[str, Any]
 
@@ -47,13 +46,6 @@ _MODELS = {
     **dict.fromkeys(("SIMPLE_RADIAL_FISHEYE", "RADIAL_FISHEYE", "FISHEYE"), "fisheye"),
     "OPENCV_FISHEYE": "fisheye",
 }
-# The camera_model that is written, by the model of Lens.
-_WRITTEN = {
-    "brown": "OPENCV",
-    "fisheye": "OPENCV_FISHEYE",
-    "equidistant": "OPENCV_FISHEYE",
-}
-LENSES = tuple(_WRITTEN)
 
 _USED = {
     *("frames", "transform_matrix", "file_path", "camera_model", "is_fisheye"),
@@ -104,23 +96,6 @@ def _disagree(table: Table) -> bool:
         return False
     fx = table["w"] / 2 / _half_width(table, "camera_angle_x")
     return not math.isclose(fx, table["fl_x"], rel_tol=0.01)
-
-
-def write(cameras: Sequence[PosedCamera], options: Options) -> bytes:
-    origin = options.pixel_origin or "corner"
-    model, frames = _model_for(cameras), []
-    for i, posed in enumerate(cameras):
-        with under(posed.name):
-            frames.append(_frame(posed, i, options, origin, model))
-    shared = {
-        name: value
-        for name, value in (frames[0].items() if frames else ())
-        if isinstance(value, int | float) and all(frame[name] == value for frame in frames)
-    }
-    own = [{name: frame[name] for name in frame if name not in shared} for frame in frames]
-    is_fisheye = {"is_fisheye": True} if model == "OPENCV_FISHEYE" else {}  # for instant-ngp
-    table = {"camera_model": model, **is_fisheye, **shared, "frames": own}
-    return (json.dumps(table, indent=2, ensure_ascii=False) + "\n").encode()
 
 
 def _image(name: object, folder: Path | None) -> str:
@@ -205,48 +180,3 @@ def _lens(table: Table) -> Lens | None:
     names = _FISHEYE if model == "fisheye" else _OPENCV
     found = {own: number_of(name, table[name]) for name, own in names.items() if name in table}
     return lens_of(model, found)
-
-
-def _model_for(cameras: Sequence[PosedCamera]) -> str:
-    """Return the camera_model of a file, which is for all of its frames. Raises LucidaError."""
-    lenses = [posed.camera.lens for posed in cameras]
-    kinds = {"PINHOLE" if lens is None else _WRITTEN[lens.model] for lens in lenses}
-    if kinds == {"PINHOLE", "OPENCV"}:
-        return "OPENCV"
-    if len(kinds) > 1:
-        problem = f"is {' and '.join(sorted(kinds))}, and a transforms.json has one for all frames"
-        raise LucidaError("camera_model", problem, "write them one by one")
-    return kinds.pop() if kinds else "PINHOLE"
-
-
-def _coefficients(lens: Lens | None, model: str) -> dict[str, float]:
-    """Return the lens's numbers in a frame. Raises LucidaError."""
-    known = {"OPENCV": _OPENCV, "OPENCV_FISHEYE": _FISHEYE}.get(model, {})
-    if lens is None:
-        return dict.fromkeys(known, 0.0)
-    for name, value in lens.coefficients.items():
-        if value and name not in known.values():
-            problem = f"{value:g} is a term that a transforms.json has not"
-            raise LucidaError(f"lens.{name}", problem, "leave it out")
-    return {written: lens.coefficient(name) for written, name in known.items()}
-
-
-def _frame(
-    posed: PosedCamera, index: int, options: Options, origin: str, model: str
-) -> dict[str, Any]:
-    camera, size = in_image(posed, options, "NeRF")
-    camera, (fx, fy, cx, cy) = pinhole(camera, size, "NeRF")
-    offset = pixel_offset(origin)
-    angles = zip("xy", size, (fx, fy), strict=True)
-    return {
-        "file_path": posed.name or posed.image or f"frame_{index:05}",
-        "w": size[0],
-        "h": size[1],
-        "fl_x": fx,
-        "fl_y": fy,
-        "cx": cx - offset,
-        "cy": cy - offset,
-        **_coefficients(camera.lens, model),
-        **{f"camera_angle_{axis}": 2 * math.atan(side / 2 / f) for axis, side, f in angles},
-        "transform_matrix": pose_of(camera).tolist(),
-    }

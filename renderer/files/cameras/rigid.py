@@ -11,7 +11,6 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, listed
-from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import LucidaError
 
 STRAIGHT = 1e-6  # a smaller cosine is float32's rounding: treated as a right angle
@@ -71,23 +70,6 @@ def rigid(camera: Camera, target: str) -> Camera:
         far=None if camera.far is None else camera.far * length,
     )
     return centred(straight) if camera.is_parallel else straight
-
-
-def pinhole(
-    camera: Camera, size: Size, target: str
-) -> tuple[Camera, tuple[float, float, float, float]]:
-    """Return the rigid camera, and fx, fy, cx, cy in pixels from the image's corner.
-
-    Raises LucidaError, also for a parallel camera.
-    """
-    if camera.is_parallel:
-        problem = f"'parallel' has no focal length, which {target} needs"
-        raise LucidaError("projection", problem, "give a perspective camera")
-    camera = rigid(camera, target)
-    (left, right, bottom, top), (width, height) = camera.viewport, size
-    across, up = width / (right - left), height / (top - bottom)  # pixels per unit
-    focal = across * camera.distance, up * camera.distance
-    return camera, (*focal, -left * across, top * up)
 
 
 def centred(camera: Camera) -> Camera:

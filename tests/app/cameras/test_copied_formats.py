@@ -32,7 +32,7 @@ def test_every_format_of_one_text_file_can_be_copied() -> None:
 @pytest.mark.parametrize("parallel", [False, True])
 def test_what_is_copied_for_others_comes_back_as_it_was_drawn(form: Form, parallel: bool) -> None:
     view = replace(WIDE, camera=replace(AIMED, projection="parallel")) if parallel else WIDE
-    if parallel and form in ("OpenCV", "NeRF"):  # which have none: nothing is copied
+    if parallel and form == "OpenCV":  # which has none: nothing is copied
         with pytest.raises(LucidaError, match="projection"):
             as_text(form, subject(view))
         return

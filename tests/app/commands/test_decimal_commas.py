@@ -16,7 +16,7 @@ COMMANDS = (
     "render still-life -o ray.npy --size 8x6 --renderer ray --fov 40.5",
     "export spheres -o scene.glb",
     "camera view.toml --to opencv -o camera.yml --size 8x6",
-    "camera camera.yml --to nerf -o transforms.json",
+    "camera camera.yml --to gltf -o camera.gltf",
 )
 VIEW = "lucida = 1\n[camera]\neye = [0.5, 1.25, 6.5]\n"
 GERMAN = "de_DE.UTF-8"

@@ -3,11 +3,12 @@
 import json
 
 import numpy as np
+from format_cameras import transforms_json
 from PIL import Image
 from test_window import drives_take_long, run
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.files.cameras import PosedCamera, written
+from lucida.renderer.files.cameras import PosedCamera
 
 SCRIPT = """
 import sys
@@ -46,7 +47,7 @@ def transforms(folder):
         for x in (-2.0, 0.0, 1.0, 3.0)
     ]
     path = folder / "transforms.json"
-    path.write_bytes(written(posed, "nerf"))
+    path.write_text(transforms_json(posed))
     assert len(json.loads(path.read_text())["frames"]) == 4
     return path
 

@@ -6,12 +6,12 @@ import json
 from pathlib import Path
 
 import numpy as np
-from format_cameras import colmap_model
+from format_cameras import colmap_model, transforms_json
 from numpy.typing import NDArray
 
 from lucida.app.instruments.poses.model import PoseSet, pose_set
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.files.cameras import CameraSet, PosedCamera, written
+from lucida.renderer.files.cameras import CameraSet, PosedCamera
 
 SIZE = (80, 60)
 
@@ -36,7 +36,7 @@ def a_set(
 
 def transforms(path: Path, count: int = 5) -> Path:
     """A data set's file, whose frames name images/000.png and so on beside it."""
-    table = json.loads(written(ring(count), "nerf"))
+    table = json.loads(transforms_json(ring(count)))
     for k, frame in enumerate(table["frames"]):
         frame["file_path"] = f"./images/{k:03}.png"
     path.write_text(json.dumps(table))

@@ -243,7 +243,8 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):
     window = d.window
     d.change(marked=(20, 30))
     d.settle()
-    d.click("//##MainMenuBar/Image")
+    d.ctx.menu_action(TestAction.hover, "//##MainMenuBar/Image/Resolution")
+    d.frames(20)
     any_popup = int(imgui.PopupFlags_.any_popup)
     assert imgui.is_popup_open("", any_popup)
     d.press(Key.escape)

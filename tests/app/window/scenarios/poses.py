@@ -3,6 +3,7 @@
 import json
 
 import numpy as np
+from format_cameras import transforms_json
 from imgui_bundle import imgui
 from outside_window import place, scope, strokes
 from outside_window import view as outside_view
@@ -15,7 +16,7 @@ from lucida.app.instruments.poses.view import POSES, PosesView
 from lucida.app.state.paths import restored
 from lucida.app.ui import layout
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.files.cameras import PosedCamera, written
+from lucida.renderer.files.cameras import PosedCamera
 
 WINDOW = f"//###{POSES}"
 COUNT = 12
@@ -40,7 +41,7 @@ def transforms(d, count=COUNT):
     """With photographs of all but the last one."""
     folder = d.folder / f"set{count}"
     (folder / "images").mkdir(parents=True, exist_ok=True)
-    table = json.loads(written(ring(count), "nerf"))
+    table = json.loads(transforms_json(ring(count)))
     for k, frame in enumerate(table["frames"]):
         frame["file_path"] = f"./images/{k:03}.png"
         if k < min(count, COUNT) - 1:

@@ -140,7 +140,7 @@ def test_a_photograph_is_never_looked_for_outside_of_its_folder(tmp_path, name):
 
 
 def test_a_model_is_only_read():
-    with pytest.raises(LucidaError, match="'colmap' is only read; give one of view, nerf,"):
+    with pytest.raises(LucidaError, match="'colmap' is only read; give one of view, opengl,"):
         written([PosedCamera(Camera(), (64, 48))], "colmap")
 
 
