@@ -90,8 +90,8 @@ def run(arguments: argparse.Namespace) -> int:
         text = data.decode()
         sys.stdout.write(visible(text) if sys.stdout.isatty() else text)
     else:
-        with atomic_write(arguments.output) as written_file:
-            written_file.write(data)
+        with atomic_write(arguments.output) as out:
+            out.write(data)
         told = counted((len(own), "camera"))
         print(f"{one_line(arguments.output)}: {target.name}, {told}")
     say_notes(found, file)

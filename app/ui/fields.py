@@ -13,6 +13,7 @@ from lucida.app.ui import pending, theme, typed
 from lucida.app.ui.explaining import notation
 from lucida.app.ui.rows import tip
 
+NOISE = 1e-12  # a smaller number is what rounding has left of 0
 LEAST = 1e-2  # where dragging a logarithmic value ends, in parts of the scale's low end
 FINE = 0.1  # the usual decimals are too few for a scale that is shorter
 FLT_MAX = 3.4e38
@@ -69,6 +70,7 @@ def shown_number(
 
     is_fine: the usual decimals are too few.
     """
+    value = value if abs(value) >= NOISE else 0.0
     text, usual = notation.number(value), f"{value:z.{decimals}f}"
     if is_fine:
         text = f"{value:.7g}"

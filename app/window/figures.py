@@ -43,6 +43,7 @@ from lucida.renderer.system.errors import LucidaError
 
 GAP = 0.02  # between the pair, in parts of the width
 FORMULA_PX = 24.0  # of the probe's formulas
+FINE = 4  # their pixels a side of each of the page's
 FORMULA_GAP, ROW_GAP = 0.3, 0.4  # from one to the next, in parts of their size
 
 
@@ -206,13 +207,15 @@ def _set(rows: list[list[str]], size: float, page: Color) -> tuple[list[Part], F
             parts.append(Label("formula", text, at, size, color, False, align=0.0, rim=False))
             x, y = x + LETTER_WIDTH * size * len(text), y + size
         else:
-            made = [imgui_microtex.render(formula.tinted(text, page), size, ink) for text in row]
-            baseline = max(one.baseline_y for one in made)
+            made = [
+                imgui_microtex.render(formula.tinted(text, page), FINE * size, ink) for text in row
+            ]
+            baseline = max(one.baseline_y for one in made) / FINE
             for one in made:
-                low = x, y + baseline - one.baseline_y
-                high = x + one.width, low[1] + one.height
+                low = x, y + baseline - one.baseline_y / FINE
+                high = x + one.width / FINE, low[1] + one.height / FINE
                 parts.append(Picture("formula", one.pixels_as_array().copy(), low, high))
-                x += one.width + FORMULA_GAP * size
-            y += baseline + max(one.height - one.baseline_y for one in made)
+                x += one.width / FINE + FORMULA_GAP * size
+            y += baseline + max(one.height - one.baseline_y for one in made) / FINE
         y, widest = y + ROW_GAP * size, max(widest, x)
     return parts, np.array([widest, y])

@@ -79,12 +79,17 @@ class Label:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """Pixels (height, width, 3), as displayed, as flat rectangles between two corners."""
+    """Pixels (height, width, 3 or 4), as displayed, as flat rectangles between two corners."""
 
     name: str
     pixels: Bytes
     low: tuple[float, float]
     high: tuple[float, float]
+
+    @property
+    def is_fine(self) -> bool:
+        """True if it has more pixels than the page, which shows their mean."""
+        return self.pixels.shape[1] > self.high[0] - self.low[0] + 1
 
 
 @dataclass(frozen=True, eq=False)

@@ -49,7 +49,9 @@ def painted(figure: Figure) -> Bytes:
             low, high = (np.round(corner).astype(int).tolist() for corner in (part.low, part.high))
             pixels = Image.fromarray(part.pixels).convert("RGBA")
             size = high[0] - low[0], high[1] - low[1]
-            page.alpha_composite(pixels.resize(size, Image.Resampling.NEAREST), tuple(low))
+            size = max(1, size[0]), max(1, size[1])
+            way = Image.Resampling.BOX if part.is_fine else Image.Resampling.NEAREST
+            page.alpha_composite(pixels.resize(size, way), tuple(low))
         elif isinstance(part, Line):
             _line(page, part, figure)
     return np.asarray(page)

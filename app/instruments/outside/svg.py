@@ -89,7 +89,9 @@ def _element(
         x, y, width, height = map(_number, (*part.low, *np.subtract(part.high, part.low)))
         box = f'{_name(part)} x="{x}" y="{y}" width="{width}" height="{height}"'
     if isinstance(part, Picture):
-        look = 'preserveAspectRatio="none" image-rendering="pixelated"'
+        look = 'preserveAspectRatio="none"'
+        if not part.is_fine:
+            look += ' image-rendering="pixelated"'
         return f'<image{box} {look} xlink:href="{address(part.pixels)}"/>'
     if isinstance(part, Inset):
         seen = np.subtract(part.high, part.low) / part.scale
