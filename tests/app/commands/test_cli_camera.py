@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import io
 import json
 import os
 import re
-import sys
 from dataclasses import replace
 from pathlib import Path
 
@@ -105,21 +103,6 @@ class TestChoice:
             assert facts(capsys, f"{name}#b#2")["name"] == "b#2"
             assert facts(capsys, f"{name}#")["cameras"].startswith("2")
 
-    def test_standard_input(self, capsys, monkeypatch):
-        def give(data):
-            monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data)))
-
-        give(Path("set.json").read_bytes())
-        assert facts(capsys, "--", "-#1")["name"] == "images/b.jpg"
-        give(Path("corner.toml").read_bytes())
-        assert facts(capsys, "-")["eye"] == "(0, 1, 6)"
-        give(Path("set.json").read_bytes())
-        assert main(["pick", "spheres", "47", "63", "--view=-#b.jpg"]) == 0
-        assert "of 64x48" in capsys.readouterr().out
-        give(b"")
-        assert main(["camera", "-"]) == 2
-        assert capsys.readouterr().err.startswith("lucida: standard input: is empty;")
-
 
 class TestWriting:
     def test_it_is_printed_without_o(self, capsys):
@@ -169,14 +152,11 @@ MISTAKES = {
     "text.txt": "text.txt: is not a recognised camera format; export glTF or COLMAP there",
     "folder": "folder: is a folder without cameras; give the folder of a COLMAP model",
     "": "is a folder without cameras",
-    "set.json --from nosuch": "--from: 'nosuch' is unknown; give one of",
     "set.json --to gltff": "--to: 'gltff' is unknown; did you mean 'gltf'?",
     "set.json --to colmap": "--to: 'colmap' is only read; give one of view, opengl, opencv, gltf",
-    "set.json --to view -o a.json": "-o: 'a.json' does not end as a file of view does; give .toml",
     "set.json --to view -o a.toml": "set.json: holds 3 cameras",
     "set.json -o a.nosuch": "--to: is missing; give one of",
     "set.json#0 -o no/a.toml": "no/a.toml: folder",
-    "corner.toml -o corner.toml": "-o: 'corner.toml' is INPUT itself; give another name",
     "skewed.toml --to gltf --size 1200x800": "skewed.toml: w: (0, 0, 1) is "
     "not with u and v at right angles, as gltf needs; make it orthonormal (Keep orthonormal, --up",
     "parallel.toml --to opencv --size 9x9": "parallel.toml: ",
