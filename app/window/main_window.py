@@ -291,7 +291,6 @@ class MainWindow(Edits):
                 factor=image.factor if image else 0,
                 agreement=told(verdict, failure) or both.preparing(),
                 agrees=is_good_news(verdict, failure),
-                scene=state.scene.name,
                 pixel=pixel,
                 indexing=state.options.indexing,
                 seen=both.seen_at(state, pixel) if pixel else "",

@@ -1,4 +1,4 @@
-"""The status line: both renderers' times, the agreement, the scene, the pixel under the mouse.
+"""The status line: both renderers' times, the agreement, the pixel under the mouse.
 
 Owns its words. Numbers are set in a fixed width, so that nothing moves while they change.
 """
@@ -37,7 +37,6 @@ class Status:
     factor: int
     agreement: str
     agrees: bool | None
-    scene: str
     pixel: Pixel | None = None
     indexing: Indexing = Indexing.LECTURE
     seen: str = ""
@@ -74,18 +73,11 @@ def status_line(status: Status, fonts: theme.Fonts, room: float | None = None) -
     agreement = agreement_text(status)
     if agreement:
         parts.append((agreement, good if status.agreement else theme.DIM))
-    parts.append((f"scene: {status.scene}", theme.TEXT))
-    divider = theme.px(DIVIDER_PX)
-    while (
-        len(parts) > 1 + bool(agreement)
-        and _together([_width(t) for t, _ in parts[:-1]], divider) > room
-    ):
-        del parts[0]  # the times give way to whether the images agree
-    rights = right_texts(status)
     widths = [_width(text) for text, _ in parts]
-    count, right = fitting(widths, list(map(_width, rights)), room, divider)
+    rights = right_texts(status)
+    left, right = fitting(widths, list(map(_width, rights)), room, theme.px(DIVIDER_PX))
     pressed = False
-    for index, (text, color) in enumerate(parts[:count]):
+    for index, (text, color) in enumerate(parts[left:]):
         if index:
             _divider()
         shown = fitting_words(text, room)  # of a single one that is wider than the window
@@ -134,27 +126,19 @@ def right_texts(status: Status) -> list[str]:
     return [f"{status.seen}  {told}".strip(), told, pixel, ""]
 
 
-def _together(widths: list[float], divider: float) -> float:
-    return sum(widths) + (len(widths) - 1) * divider
-
-
 def fitting(
     lefts: list[float], rights: list[float], room: float, divider: float = DIVIDER_PX
 ) -> tuple[int, int]:
-    """Return how many of the left texts, and which of the right ones, have room next to each other.
+    """Return which of the left texts is the first, and which of the right ones has room next to it.
 
-    lefts, rights, divider: widths, the right ones from the widest to 0. The last of the left texts
-    is dropped first, then the right one becomes shorter; the others stay.
+    lefts, rights, divider: widths, the right ones from the widest to 0. The times, on the left,
+    give way to whether the images agree, which stays; then the right text becomes shorter.
     """
-    all_but_last = len(lefts) - 1
-    for count, right in [
-        (len(lefts), 0),
-        *((all_but_last, index) for index in range(len(rights))),
-    ]:
-        taken = _together(lefts[:count], divider)
-        if taken + (rights[right] + divider if rights[right] else 0) <= room:
-            return count, right
-    return all_but_last, len(rights) - 1
+    first = 0
+    while first < len(lefts) - 1 and sum(lefts[first:]) + divider * (len(lefts) - first) > room:
+        first += 1
+    free = room - sum(lefts[first:]) - divider * (len(lefts) - first)
+    return first, next(number for number, width in enumerate(rights) if width <= max(free, 0))
 
 
 def milliseconds(time_s: float) -> str:

@@ -6,7 +6,7 @@ These are computed once per set. Pure; slow functions are called on a thread.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -24,7 +24,6 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras import CameraSet, PosedCamera, read_cameras
 from lucida.renderer.files.cameras.given import given
 from lucida.renderer.scene.model import Scene, View
-from lucida.renderer.system.file_dependencies import Noted
 
 Floats = NDArray[np.float64]
 
@@ -51,7 +50,6 @@ class PoseSet:
     points, colors: of a reconstruction, as Cloud has them.
     low, high: (3,), a box around the cameras and most of the points.
     told: notes on the set, a phrase each.
-    files: their stamps at the time of reading.
     """
 
     path: Path
@@ -65,7 +63,6 @@ class PoseSet:
     low: Floats
     high: Floats
     told: tuple[str, ...]
-    files: Noted = field(default_factory=dict)
 
     @property
     def origin(self) -> Floats:

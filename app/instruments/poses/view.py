@@ -69,7 +69,6 @@ class PosesView(Instrument):
         self._uploads: Uploads | None = None
         self.poses: PoseSet | None = None
         self.problem = ""
-        self._mistake = ""
         self.hovered: int | None = None
         self._picked = Memo(_picked)
         self._cloud = Memo(cloud)
@@ -117,18 +116,10 @@ class PosesView(Instrument):
         path = restored(host.state.options.poses.file)
         name = Path(path).name
         poses = self._reader.of(path)
-        if self._reader.waiting:
-            host.animate()
         if poses is not self.poses:
-            if self.poses is not None and poses is not None and poses.path == self.poses.path:
-                self._follow_chosen(host, self.poses, poses)
             self.poses = poses
             self._forget_set()
         self.problem = self._reader.problems.get(path, "")
-        mistake = self.problem if poses is not None else ""  # in a newer version of the file
-        if mistake != self._mistake and host.files.message in ("", self._mistake):
-            host.files.message = mistake
-        self._mistake = mistake
         wish: PoseWish
         if not path:
             wish = panel.invitation()
@@ -171,14 +162,6 @@ class PosesView(Instrument):
         for memo in (self._picked, self._cloud, self._items, self._upload):
             memo.forget()
         self._scrolled = self.hovered = None
-
-    def _follow_chosen(self, host: Host, old: PoseSet, new: PoseSet) -> None:
-        """Keep the selected camera, by its name, in a newer version of its file."""
-        number = host.state.options.poses.pose
-        if 0 <= number < len(old.names):
-            name = old.names[number]
-            number = new.names.index(name) if name in new.names else -1
-            host.amend(host.state.with_options(replace(host.state.options.poses, pose=number)))
 
     # The list.
 

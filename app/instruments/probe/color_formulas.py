@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from lucida.app.instruments.probe.reading import Bounce, Reading
+from lucida.app.instruments.probe.shading import Lamp, Shading
 from lucida.app.ui.explaining.notation import (
     DECIMALS,
     Line,
@@ -22,7 +23,6 @@ from lucida.app.ui.explaining.notation import (
     number,
     scalar_slot,
 )
-from lucida.app.ui.explaining.shading import Lamp, Shading
 from lucida.renderer.images.shared_numbers import (
     SRGB_GAMMA,
     SRGB_LINEAR,

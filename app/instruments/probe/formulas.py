@@ -13,6 +13,7 @@ import numpy as np
 
 from lucida.app.instruments.probe.lens_formulas import lens_lines
 from lucida.app.instruments.probe.reading import Reading
+from lucida.app.instruments.probe.shading import SurfaceHit
 from lucida.app.ui.explaining.notation import (
     Line,
     Slot,
@@ -23,7 +24,6 @@ from lucida.app.ui.explaining.notation import (
     scalar_slot,
     vector_slot,
 )
-from lucida.app.ui.explaining.shading import SurfaceHit
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
 

@@ -22,7 +22,7 @@ from lucida.app.instruments.probe.reading import (
     Meeting,
     Reading,
 )
-from lucida.app.ui.explaining.shading import LitTest, Shading, SurfaceHit, hit_at, shade
+from lucida.app.instruments.probe.shading import LitTest, Shading, SurfaceHit, hit_at, shade
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector, three
 from lucida.renderer.camera.image_plane import Size, has_pixel

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from lucida.app.ui.explaining.shading import Shading, SurfaceHit
+from lucida.app.instruments.probe.shading import Shading, SurfaceHit
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size

@@ -11,6 +11,8 @@ from typing import Any, NamedTuple
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
+from lucida.app.instruments.stepper import julia
+from lucida.app.instruments.stepper.code import LINE, code, code_size
 from lucida.app.instruments.stepper.source import shown_lines
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
@@ -21,9 +23,7 @@ from lucida.app.ui.canvas import (
     depth_picture,
     draw_canvas,
 )
-from lucida.app.ui.code import LINE, code, code_size
 from lucida.app.ui.explaining.breaking import narrowed
-from lucida.app.ui.explaining.languages import julia
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.uploads import Uploads

@@ -1,3 +1,3 @@
-"""Explanations that several instruments share: formatted numbers, the terms of shading, programs in
-Python and Julia. Knows no ImGui, no OpenGL, no window.
+"""Explanations that several instruments share: formatted numbers, symbols, formulas as text. Knows
+no ImGui, no OpenGL, no window.
 """

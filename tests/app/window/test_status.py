@@ -13,7 +13,7 @@ from lucida.app.window.status import (
 )
 from lucida.renderer.camera.pixels import Indexing
 
-STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "raster and ray: all pixels agree", True, "spheres")
+STATUS = Status(0.001, 1, 0.02, (640, 480), 1, "raster and ray: all pixels agree", True)
 
 
 def test_texts_keep_their_width():
@@ -46,10 +46,10 @@ def test_an_agreement_that_will_not_come_is_not_awaited():
 
 
 def test_nothing_overlaps():
-    lefts, rights = [100.0, 100.0, 100.0, 80.0], [200.0, 90.0, 0.0]
-    assert fitting(lefts, rights, 1000) == (4, 0)
-    assert fitting(lefts, rights, 600) == (3, 0)
-    assert fitting(lefts, rights, 500) == (3, 1)
-    assert fitting(lefts, rights, 400) == (3, 2)
-    assert fitting(lefts, rights, 10) == (3, 2)
-    assert fitting(lefts, [0.0], 460) == (4, 0)
+    lefts, rights = [100.0, 100.0, 100.0], [200.0, 90.0, 0.0]
+    assert fitting(lefts, rights, 600) == (0, 0)
+    assert fitting(lefts, rights, 500) == (0, 1)
+    assert fitting(lefts, rights, 400) == (0, 2)
+    assert fitting(lefts, rights, 300) == (1, 2)
+    assert fitting(lefts, rights, 10) == (2, 2)
+    assert fitting([], rights, 100) == (0, 1)

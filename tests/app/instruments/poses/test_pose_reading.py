@@ -142,41 +142,6 @@ def test_a_set_is_read_in_a_thread_and_the_last_ones_are_kept(tmp_path: Path) ->
         reader.close()
 
 
-@pytest.mark.parametrize("given", [False, True])
-@pytest.mark.parametrize("form", ["file", "folder"])
-def test_a_set_is_read_again_when_a_file_of_it_was_saved(
-    tmp_path: Path, form: str, given: bool
-) -> None:
-    def save(count: int) -> Path:
-        if form == "file":
-            return transforms(tmp_path / "transforms.json", count)
-        return colmap(tmp_path / "sparse", count)
-
-    path = save(3)
-    lost = path if form == "file" else path / "images.txt"
-    reader = PosesReader()
-
-    def count() -> int:
-        found = reader.of(str(path))
-        return -1 if found is None else len(found.names)
-
-    try:
-        if given:
-            found = open_cameras(str(path))
-            assert isinstance(found, PoseSet)
-            reader.give(found)
-        wait_for(lambda: count() == 3)
-        save(5)
-        wait_for(lambda: count() == 5)
-        text = lost.read_bytes()
-        lost.write_bytes(b"{ broken")
-        wait_for(lambda: count() == 5 and str(path) in reader.problems)  # the last one stays
-        lost.write_bytes(text.replace(b"000", b"007"))
-        wait_for(lambda: count() == 5 and not reader.problems)
-    finally:
-        reader.close()
-
-
 def test_the_end_of_an_older_reading_is_not_the_newer_one_s(tmp_path: Path, monkeypatch) -> None:
     old, new = (str(transforms(tmp_path / f"{name}.json")) for name in ("old", "new"))
     gates = {old: threading.Event(), new: threading.Event()}

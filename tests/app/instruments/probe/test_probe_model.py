@@ -10,7 +10,7 @@ import pytest
 
 from lucida.app.instruments.probe.model import Probe, winner_of
 from lucida.app.instruments.probe.reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Reading
-from lucida.app.ui.explaining.shading import SurfaceHit
+from lucida.app.instruments.probe.shading import SurfaceHit
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.material import Material

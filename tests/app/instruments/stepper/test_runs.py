@@ -9,11 +9,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from lucida.app.instruments.stepper.code import code_words
 from lucida.app.instruments.stepper.model import moment_at
 from lucida.app.instruments.stepper.recording import Recording
 from lucida.app.instruments.stepper.runs import Made, Prepared, recordings
 from lucida.app.ui.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
-from lucida.app.ui.code import code_words
 from lucida.app.ui.explaining.breaking import breakable
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lucida.app.ui.explaining.shading import SurfaceHit, hit_at, shade
+from lucida.app.instruments.probe.shading import SurfaceHit, hit_at, shade
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (

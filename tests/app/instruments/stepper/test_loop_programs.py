@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 from option_changes import with_options
 
-from lucida.app.instruments.stepper import loop_parts, raster_parts
+from lucida.app.instruments.stepper import julia, loop_parts, raster_parts
 from lucida.app.instruments.stepper.loop_parts import Model
 from lucida.app.instruments.stepper.loops import PROGRAMS
 from lucida.app.instruments.stepper.source import shown_lines, source_of
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.step_options import state_of
 from lucida.app.state.app_state import AppState
-from lucida.app.ui.explaining.languages import julia
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.files import load_scene
 
