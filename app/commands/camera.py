@@ -6,9 +6,7 @@ It is quick to import.
 from __future__ import annotations
 
 import argparse
-import contextlib
 import json
-import os
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -18,14 +16,12 @@ from lucida.app.commands import arguments as common
 from lucida.app.commands.given_camera import (
     say_changes,
     say_notes,
-    source_of,
 )
 from lucida.renderer.system.errors import LucidaError, counted, errors_as, one_line, visible
 
 if TYPE_CHECKING:
     from lucida.renderer.files.cameras import CameraSet, PosedCamera
     from lucida.renderer.files.cameras.formats import Format
-    from lucida.renderer.files.cameras.given import Given
 
 NAME = "camera"
 
@@ -52,14 +48,7 @@ examples:
 
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
-    parser.add_argument("input", metavar="INPUT", help="a file or a folder; -: standard input")
-    parser.add_argument(
-        "--from",
-        dest="source_format",
-        default="",
-        metavar="FORMAT",
-        help="of INPUT (default: found by its name and content)",
-    )
+    parser.add_argument("input", metavar="INPUT", help="a file or a folder")
     parser.add_argument("--to", metavar="FORMAT", help="write the camera in this format")
     parser.add_argument("-o", "--output", metavar="OUT", help="into this file (default: print it)")
     parser.add_argument(
@@ -80,26 +69,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from lucida.renderer.files.cameras import Options, read_chosen, without_choice, written
+    from lucida.renderer.files.cameras.given import given
     from lucida.renderer.files.reading import naming
     from lucida.renderer.system.atomic import atomic_write
 
     # Check for quick mistakes first.
     target = _target(arguments)
     file, which = without_choice(arguments.input)
-    if arguments.source_format:
-        _format("--from", arguments.source_format)
-    source = source_of(file)
-    if arguments.output is not None:
-        _check_is_another(arguments.output, source)
     options = Options(arguments.pixel_origin, arguments.size)
-    found, chosen = read_chosen(source, which, arguments.source_format, options, several=True)
+    found, chosen = read_chosen(given(file), which, options, several=True)
     own = found.cameras if chosen is None else (chosen,)
     found = replace(found, cameras=tuple(_changed(arguments, c) for c in found.cameras))
     chosen = None if chosen is None else _changed(arguments, chosen)
     if target is None:
         print(_described(arguments, found, chosen))
         return 0
-    with naming(source.name):
+    with naming(file):
         data = written(found.cameras if chosen is None else (chosen,), target.name, options)
     if arguments.output is None:
         text = data.decode()
@@ -127,44 +112,25 @@ def _described(arguments: argparse.Namespace, found: CameraSet, chosen: PosedCam
     return as_text(told)
 
 
-def _format(option: str, name: str) -> Format:
-    from lucida.renderer.files.cameras import format_named
-
-    with errors_as(option):
-        return format_named(name)
-
-
 def _target(arguments: argparse.Namespace) -> Format | None:
     """Return the format to write, from --to or OUT's ending; None for none. Raises LucidaError."""
-    from lucida.renderer.files.cameras.formats import FORMATS
+    from lucida.renderer.files.cameras.formats import FORMATS, format_named
 
-    output = arguments.output
-    if arguments.to is None and output is None:
+    if arguments.to is not None:
+        with errors_as("--to"):
+            target = format_named(arguments.to)
+            target.check_written()
+        return target
+    if arguments.output is None:
         return None
-    if arguments.to is None:
-        ending = Path(output).suffix.lower()
-        names = [entry.name for entry in FORMATS if ending in entry.endings]
-        if len(names) != 1:
-            names = names or [entry.name for entry in FORMATS if entry.endings]
-            raise LucidaError("--to", "is missing", f"give one of {', '.join(names)}")
-        return _format("--to", names[0])
-    target = _format("--to", arguments.to)
-    with errors_as("--to"):
-        target.check_written()
-    if output is not None and Path(output).suffix.lower() not in target.endings:
-        problem = f"{output!r} does not end as a file of {target.name} does"
-        raise LucidaError("-o", problem, f"give {' or '.join(target.endings)}")
-    return target
+    for entry in FORMATS:
+        if Path(arguments.output).suffix.lower() in entry.endings:
+            return entry
+    names = ", ".join(entry.name for entry in FORMATS if entry.endings)
+    raise LucidaError("--to", "is missing", f"give one of {names}")
 
 
 def _changed(arguments: argparse.Namespace, posed: PosedCamera) -> PosedCamera:
     """Return a camera with the requested size, and without its lens if that was requested."""
     camera = posed.camera.pinhole if arguments.no_lens else posed.camera
     return replace(posed, camera=camera, size=arguments.size or posed.size)
-
-
-def _check_is_another(output: str, source: Given) -> None:
-    """Raise LucidaError if OUT is INPUT."""
-    with contextlib.suppress(OSError):  # it does not exist
-        if source.path is not None and os.path.samefile(source.path, output):
-            raise LucidaError("-o", f"{output!r} is INPUT itself", "give another name")

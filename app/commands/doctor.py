@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import dataclasses
-import json
 import platform
 from typing import TYPE_CHECKING
 
@@ -19,17 +17,11 @@ DESCRIPTION = """\
 Report which parts of Lucida work on this machine, and why others do not and what to install:
 OpenGL, display, ray tracer, the packages of films and notebooks, the command and the imports."""
 
-EPILOG = """\
-exit status: 0 at least one OpenGL platform works, 1 none does
-
-examples:
-  lucida doctor
-  lucida doctor --json"""
+EPILOG = "exit status: 0 at least one OpenGL platform works, 1 none does"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
-    parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -37,22 +29,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     checks = report()
     usable = can_draw(checks)
-    if arguments.json:
-        print(json.dumps(as_dict(checks, usable), indent=2, allow_nan=False))
-    else:
-        print(as_text(checks, usable))
+    print(as_text(checks, usable))
     return 0 if usable else 1
-
-
-def as_dict(checks: list[Check], usable: bool) -> dict[str, object]:
-    """Return the report as JSON values."""
-    return {
-        "lucida": __version__,
-        "python": platform.python_version(),
-        "system": _system(),
-        "can_draw": usable,
-        "checks": [dataclasses.asdict(check) for check in checks],
-    }
 
 
 def as_text(checks: list[Check], usable: bool) -> str:

@@ -10,15 +10,12 @@ import argparse
 import sys
 from typing import TYPE_CHECKING
 
-from lucida.renderer.system.errors import LucidaError, one_line
+from lucida.renderer.system.errors import one_line
 
 if TYPE_CHECKING:
     from lucida.renderer.files.cameras import CameraSet, PosedCamera
-    from lucida.renderer.files.cameras.given import Given
 
     Size = tuple[int, int]
-
-STANDARD_INPUT = "-"
 
 VIEW_HELP = """\
 take the camera from this file: a view file (.toml), or any other
@@ -38,9 +35,10 @@ def viewed(arguments: argparse.Namespace) -> PosedCamera | None:
     if arguments.view is None:
         return None
     from lucida.renderer.files.cameras import read_chosen, without_choice
+    from lucida.renderer.files.cameras.given import given
 
     file, which = without_choice(arguments.view)
-    found, posed = read_chosen(source_of(file), which)
+    found, posed = read_chosen(given(file), which)
     say_notes(found, file)
     return posed
 
@@ -49,21 +47,6 @@ def say_notes(found: CameraSet, file: str) -> None:
     """Report on standard error values that a file does not state, and those that are not used."""
     for note in found.notes:
         print(f"lucida: {one_line(file)}: {one_line(note)}", file=sys.stderr)
-
-
-def source_of(file: str) -> Given:
-    """Return a file, a folder, or the contents of standard input. Raises LucidaError."""
-    from lucida.renderer.files.cameras.given import LARGEST_BYTES, Given, given
-    from lucida.renderer.files.reading import check_bytes
-
-    if file != STANDARD_INPUT:
-        return given(file)
-    name = "standard input"
-    data = sys.stdin.buffer.read(LARGEST_BYTES + 1)
-    check_bytes(len(data), LARGEST_BYTES, name)
-    if not data:
-        raise LucidaError("", "is empty", "give a camera's text", name)
-    return Given(name, data)
 
 
 def say_changes(posed: PosedCamera, size: Size | None) -> None:

@@ -13,7 +13,7 @@ from lucida.app.cameras.films.film import Film
 from lucida.app.cameras.films.frames import Look, Shot
 from lucida.app.cameras.options import with_camera_options
 from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import say_notes, source_of
+from lucida.app.commands.given_camera import say_notes
 from lucida.app.commands.many import look_of, make_film
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
@@ -65,7 +65,7 @@ def render_all(arguments: argparse.Namespace) -> int:
     if arguments.view is None:
         raise LucidaError("argument --all", "has no cameras", "give a data set by --view")
     start_s, given = time.perf_counter(), arguments.size
-    found = read_cameras(source_of(arguments.view))
+    found = read_cameras(arguments.view)
     scene, _ = common.scene_and_view(arguments, found.cameras[0])
     say_notes(found, arguments.view)
     shots = []

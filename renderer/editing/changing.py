@@ -56,7 +56,7 @@ def _with_tables(scene: Scene) -> Scene:
     if origin.source:  # a model, which is not read again
         fields = ModelTable(file=tables["objects"][0]["file"])
         made, path = scene.objects, os.path.abspath(origin.source)
-        known = FileEntry(0, {}, fields, None, made, made, scene.views, path)
+        known = FileEntry(0, {}, fields, None, made, made, path)
         origin = replace(origin, entries=(known,))
     origin = replace(origin, folder=folder, saved=SavedFile())
     return changed_scene(replace(scene, origin=origin), tables, keys)

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -26,21 +25,19 @@ from lucida.renderer.files.schema import (
     SphereTable,
 )
 from lucida.renderer.files.tables import parse_toml, to_struct
-from lucida.renderer.files.views import transformed_view, view_from_table
+from lucida.renderer.files.views import view_from_table
 from lucida.renderer.scene import framing, shapes
 from lucida.renderer.scene.limits import (
     LIGHTS,
     OBJECTS,
     TOML_BYTES,
     TRIANGLES,
-    VIEWS,
 )
 from lucida.renderer.scene.material import Material, parse_color
 from lucida.renderer.scene.model import (
     Checker,
     DirectionalLight,
     Mesh,
-    NamedView,
     PointLight,
     Scene,
     SceneObject,
@@ -103,6 +100,7 @@ def changed_scene(scene: Scene, tables: dict[str, Any], keys: Keys) -> Scene:
     """
     assert scene.origin is not None
     changed = _scene(replace(scene.origin, tables=tables), keys, scene.name, scene.origin.saved)
+    changed = replace(changed, views=scene.views)
     return replace(changed, view=scene.view) if "camera" not in tables else changed
 
 
@@ -113,7 +111,6 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
     builder = _Builder(tables, origin)
     entries = builder.entries(tables.objects, keys[0])
     objects = [made for entry in entries for made in entry.objects]
-    views = [view for entry in entries if entry.views for view in _views(entry)]
     lights: tuple[PointLight | DirectionalLight, ...] = framing.LIGHTS
     if tables.lights is not None:
         check_count(len(tables.lights), LIGHTS, "lights", "lights", SPLIT)
@@ -134,19 +131,8 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
         view,
         tables.name or name,
         replace(origin, entries=entries, light_keys=keys[1], saved=saved),
-        tuple(views[:VIEWS]),
-        tuple(dict.fromkeys(note for entry in entries for note in entry.notes)),
+        notes=tuple(dict.fromkeys(note for entry in entries for note in entry.notes)),
     )
-
-
-def _views(entry: FileEntry) -> Iterator[NamedView]:
-    """Yield the cameras of a model, moved with it."""
-    table = entry.fields
-    matrix = shapes.placement(*_place(table))
-    for named in entry.views:
-        with contextlib.suppress(LucidaError):  # too far away for a camera
-            name = f"{table.name}/{named.name}" if table.name else named.name
-            yield NamedView(name, transformed_view(named.view, matrix))
 
 
 class _Builder:
@@ -223,6 +209,8 @@ class _Builder:
         made, notes = model.objects, model.notes
         if model.lights:
             notes += (f"{path}: lights: not shown; a scene file has its own",)
+        if model.views:
+            notes += (f"{path}: cameras: listed where the model is opened alone",)
         was = self._old.get(key)
         if was is not None and was.made is made and _place(was.fields) == _place(fields):
             placed = [entry.shape for entry in was.objects]
@@ -241,9 +229,7 @@ class _Builder:
             # A part that its own material cuts away altogether is hidden as it is read.
             is_gone = material is None and part.hidden
             objects.append(SceneObject(shape, shown, name, fields.hidden or is_gone))
-        return FileEntry(
-            key, table, fields, material, made, tuple(objects), model.views, path, notes
-        )
+        return FileEntry(key, table, fields, material, made, tuple(objects), path, notes)
 
     def _material_of(self, value: str | MaterialTable | None) -> Material | None:
         if isinstance(value, MaterialTable):

@@ -65,7 +65,7 @@ class SceneParts:
         self._pixels: dict[tuple[Path | None, bool], FoundImage] = {}
         for entry in entries:
             if isinstance(entry.fields, ModelTable):
-                found = ModelFile(entry.made, entry.views, entry.notes)
+                found = ModelFile(entry.made, notes=entry.notes)
                 self._models.setdefault(entry.path, found)
             elif entry.made:
                 is_mapped = unmapped(entry.made) is None

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import Any
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.lenses import MODELS, Lens
 from lucida.renderer.files.reading import decode_text, naming, path_of, read_file
 from lucida.renderer.files.schema import CameraFields, LookAtFields, ViewFile
@@ -63,17 +62,6 @@ def view_from_toml(text: str, source: str = "") -> View:
     with naming(source):
         table: dict[str, Any] = to_struct(parse_toml(text), ViewFile).camera
         return view_from_table(table, is_fitted=False)
-
-
-def transformed_view(view: View, matrix: Floats) -> View:
-    """Return the view that sees objects moved by an affine `matrix` (4, 4) as it saw them before.
-    Raises LucidaError if that is not a camera.
-    """
-    linear = matrix[:3, :3]
-    eye = linear @ view.camera.eye + matrix[:3, 3]
-    u, v, w = (linear @ view.camera.basis).T.tolist()
-    camera = replace(view.camera, eye=tuple(eye.tolist()), u=tuple(u), v=tuple(v), w=tuple(w))
-    return replace(view, camera=camera)
 
 
 def looks_at(table: dict[str, Any]) -> bool:

@@ -27,7 +27,6 @@ class FileEntry:
     material: its material, named or inline; None without one.
     made: SceneObjects, its shapes before they were placed; none for a sphere.
     objects: the scene's, in their order; one for each part of a model.
-    views: NamedViews, the model's own cameras.
     path: of the model's file, absolute.
     notes: on properties of its textures that are not shown.
     """
@@ -38,7 +37,6 @@ class FileEntry:
     material: Material | None
     made: tuple[Any, ...]
     objects: tuple[Any, ...]
-    views: tuple[Any, ...] = ()
     path: str = ""
     notes: tuple[str, ...] = ()
 

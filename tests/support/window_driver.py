@@ -143,13 +143,13 @@ class Driver:
         if self.window.lecture.is_given:
             self.window.lecture.leave(self.window)
         self.stage.maximised = ""
-        for one in (*layout.LAYOUTS[1:], layout.LAYOUTS[0]):
-            layout.switch(one.name)
-            self.frames(5)
-            for view in self.stage.views.values():
-                layout.window_of(view).is_visible = view.name in one.places
-            layout.reset()
-            self.frames(5)
+        first = layout.LAYOUTS[0]
+        layout.switch(first.name)
+        self.frames(3)
+        for view in self.stage.views.values():
+            layout.window_of(view).is_visible = view.name in first.places
+        layout.reset()
+        self.frames(3)
 
     def resize(self, size: tuple[int, int]) -> None:
         """Resize the window, and wait until it is drawn so."""

@@ -109,7 +109,6 @@ def without_choice(source: str) -> tuple[str, str]:
 def read_chosen(
     source: Given,
     which: str = "",
-    format: str = "",
     options: Options | None = None,
     several: bool = False,
 ) -> tuple[CameraSet, PosedCamera | None]:
@@ -118,7 +117,7 @@ def read_chosen(
     several: without `which`, return None as the selected one if the file holds more than one;
     otherwise that is an error. Raises LucidaError.
     """
-    found = read_cameras(source, format, options)
+    found = read_cameras(source, options=options)
     if several and not which and len(found.cameras) > 1:
         return found, None
     try:

@@ -9,6 +9,7 @@ from copied_views import NOW
 
 from lucida.app.cli import main
 from lucida.app.commands import view as view_command
+from tests.support.refusals import refused
 
 
 class TestCommandLine:
@@ -51,7 +52,4 @@ class TestCommandLine:
         ],
     )
     def test_a_mistake_is_one_line(self, capsys, options: str, told: str) -> None:
-        assert main(["render", "spheres", "-o", "a.png", options]) == 2
-        line = capsys.readouterr().err
-        assert told in line
-        assert line.count("\n") == 1
+        assert told in refused(capsys, "render", "spheres", "-o", "a.png", options)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-
 import pytest
 
 import lucida.renderer.system.doctor
@@ -41,17 +39,3 @@ def test_no_platform_is_status_1(checks, capsys):
     told = capsys.readouterr().out
     assert "install libegl1" in told
     assert told.endswith("No OpenGL platform works: only the ray tracer can draw.\n")
-
-
-def test_json(checks, capsys):
-    assert main(["doctor", "--json"]) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert set(told) == {"lucida", "python", "system", "can_draw", "checks"}
-    assert told["can_draw"] is True
-    assert told["checks"][1] == {
-        "name": "display",
-        "purpose": "shows the window",
-        "works": False,
-        "detail": "DISPLAY is not set",
-        "remedy": "log in",
-    }

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from lucida.app.cli import main
+from tests.support.refusals import refused
 
 SPACE = "{http://www.w3.org/2000/svg}"
 
@@ -53,8 +53,4 @@ def test_a_drawing_has_its_size_its_ground_and_its_labels(tmp_path):
 )
 def test_a_mistake_costs_one_line(tmp_path, monkeypatch, capsys, arguments, told):
     monkeypatch.chdir(tmp_path)
-    assert main(["figure", "spheres", "--size", "320x240", *arguments]) == 2
-    error = capsys.readouterr().err
-    assert told in error
-    assert error.count("\n") == 1
-    assert not list(tmp_path.iterdir())
+    assert told in refused(capsys, "figure", "spheres", "--size", "320x240", *arguments)

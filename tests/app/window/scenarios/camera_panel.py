@@ -53,6 +53,13 @@ def drive_the_field_of_view_is_typed(d):
     d.click("//###pending/Back to the camera shown")
 
 
+def drive_a_step_shows_parts_of_the_panel(d):
+    d.change(camera={"shown": ("eye", "Lens")})
+    d.frames(3)
+    items = d.field("eye.x"), d.field("lens model"), d.field("u.x"), "//Camera/Look at"
+    assert [d.ctx.item_exists(one) for one in items] == [True, True, False, False]
+
+
 def drive_near_and_far_are_switched_on_and_cut(d):
     close_sections(d)
     open_section(d, "More")

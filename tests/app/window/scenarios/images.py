@@ -94,6 +94,9 @@ def drive_channels_follow_a_drag(d):
     hits = frame.depth[np.isfinite(frame.depth)]
     assert abs(near - hits.min()) < 1e-4
     assert abs(far - hits.max()) < 1e-3
+    d.change(images={"channel": "z"})
+    d.settle()
+    assert abs(both.depths()[0] - d.state.camera.distance * near) < 1e-3
 
 
 def drive_nothing_is_drawn_twice(d):

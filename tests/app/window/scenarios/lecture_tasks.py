@@ -37,6 +37,10 @@ def drive_exercises_say_what_is_right_and_wrong(d):
     drawn = outside.extensions.lines
     assert any(item.name == "your d" for item in drawn)  # next to the correct one
     wrong = d.picture()
+    d.click(item(d, f"Read again: {verdict.read}"))
+    assert session.step.title == verdict.read
+    d.window.lecture.go(d.window, titles.index("Exercise: a pixel's ray"))
+    d.settle()
     answer(d, "origin", "0, 0, 0")
     answer(d, "direction", "1/16, 5/16, -1")
     d.click(item(d, "Check"))

@@ -248,6 +248,7 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):
     any_popup = int(imgui.PopupFlags_.any_popup)
     assert imgui.is_popup_open("", any_popup)
     d.press(Key.escape)
+    d.frames(20)
     assert not imgui.is_popup_open("", any_popup)
     assert window.state.marked == (20, 30)
     ask_resolution(window)

@@ -57,7 +57,7 @@ def drive_images_and_formulas_are_figures_too(d):
     d.frames(8)
     d.settle()
     choice = replace(_open(d).choice, size=(600, 200), ground="transparent")
-    for what, least in (("pair", 0.3), ("raster", 0.2), ("probe", 0.001)):
+    for what, least in (("pair", 0.3), ("raster", 0.15), ("probe", 0.001)):
         made = d.in_draw_lists(lambda what=what: encoder(d.window, replace(choice, what=what)))
         pixels = np.asarray(Image.open(io.BytesIO(made(".png"))))
         assert pixels.shape == (200, 600, 4)
