@@ -43,6 +43,7 @@ class _Share:
     ) -> None:
         """other: the node next to it."""
         size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
+        room -= imgui.get_style().docking_separator_size
         kept = (node.size_ref.x, other.size_ref.x) if x else (node.size_ref.y, other.size_ref.y)
         if not self.room and min(kept) > 0:
             self.part = kept[0] / sum(kept)  # the layout's, or what ImGui has saved
