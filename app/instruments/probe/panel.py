@@ -67,12 +67,13 @@ def toolbar(
         state = state.with_options(replace(state.options.probe, pins=(*pins, pixel)))
     imgui.end_disabled()
     imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
-    follow(button_width("Copy as LaTeX"))
+    follow(button_width("Copy"))
     imgui.begin_disabled(reading is None)
-    if imgui.button("Copy as LaTeX") and reading is not None:
+    if imgui.button("Copy") and reading is not None:
         imgui.set_clipboard_text(as_latex(reading, indexing))
         say("The pixel's ray is in the clipboard: LaTeX.")
     imgui.end_disabled()
+    imgui.set_item_tooltip("the formulas with their numbers, as LaTeX")
     return state
 
 
