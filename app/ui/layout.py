@@ -275,11 +275,10 @@ def node_of(space: str) -> imgui.internal.DockNode | None:
     """Return a dock space of the current layout; None while it does not exist."""
     params = hello_imgui.get_runner_params().docking_params
     number = params.dock_space_id_from_name(_own(current(), space))
-    if number is None:
-        return None
-    if space == MAIN:  # whose name is that of the whole, too
-        return imgui.internal.dock_builder_get_central_node(number)
-    return imgui.internal.dock_builder_get_node(number)
+    node = imgui.internal.dock_builder_get_node(number) if number is not None else None
+    if space == MAIN and node is not None:
+        return node.central_node or node  # the name is that of the root, in which it is
+    return node
 
 
 def _split(

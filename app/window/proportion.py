@@ -15,7 +15,6 @@ from lucida.app.ui import layout
 
 ARRANGING_FRAMES = 3  # until a layout's dock spaces exist again
 ROUNDED_PX = 1.5  # largest rounding of a dock space's size by ImGui
-SEPARATOR_PX = 4.0  # the most between two new nodes, which is in neither's size
 LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 
@@ -44,10 +43,10 @@ class _Share:
     ) -> None:
         """other: the node next to it."""
         size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
+        room -= imgui.get_style().docking_separator_size
         kept = (node.size_ref.x, other.size_ref.x) if x else (node.size_ref.y, other.size_ref.y)
         if not self.room and min(kept) > 0:
-            whole = room if abs(room - sum(kept)) <= SEPARATOR_PX else sum(kept)
-            self.part = kept[0] / whole  # the layout's, or what ImGui has saved
+            self.part = kept[0] / sum(kept)  # the layout's, or what ImGui has saved
         if room != self.room or self.again:
             self.again = max(0, self.again - 1)
             size = max(1.0, float(round(self.part * room)))  # ImGui saves whole numbers

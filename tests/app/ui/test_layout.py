@@ -40,6 +40,7 @@ class Dock:
 def start(monkeypatch, dock: Dock, kept: Proportion, rooms: tuple[float, ...]) -> None:
     nodes = {SPACE: dock.nodes[1], layout.MAIN: dock.nodes[2]}
     monkeypatch.setattr(imgui, "is_mouse_down", lambda _: True)
+    monkeypatch.setattr(imgui, "get_style", lambda: SimpleNamespace(docking_separator_size=0.0))
     monkeypatch.setattr(layout, "node_of", nodes.get)
     monkeypatch.setattr(imgui.internal, "dock_builder_set_node_size", dock.set_size)
     monkeypatch.setattr(layout, "window_px", lambda: (1280.0, 720.0))

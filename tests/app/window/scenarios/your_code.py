@@ -117,6 +117,8 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     write(d, RIGHT.replace("x = camera.left", "x = camera.lft"))
     until_told(d, "rays.py, line 2", "lft")
     (d.folder / "rays.py").unlink()
+    d.until(lambda: not view(d).runs.busy)  # the button stops a run that goes on
+    d.frames(2)
     d.click(f"{WINDOW}/###run")
     until_told(d, "does not exist")
     write(d, RIGHT)
