@@ -100,7 +100,7 @@ class RayExercise:
             "origin": f"Not yet: the ray begins {where}.",
             "length": "The direction is correct, its length is not: do not normalise it.",
             "backwards": "That points backwards: t > 0 must lead into the scene.",
-            "direction": "Not yet: the origin is correct, the direction is not.",
+            "direction": "Not yet: the origin is correct, but the direction is not.",
         }
 
     def wrong_rays(self) -> Iterator[tuple[Mistake, Ray]]:

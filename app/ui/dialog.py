@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lucida.app.ui.entry_box import EntryBox
+from lucida.renderer.system.atomic import check_writable
 from lucida.renderer.system.errors import LucidaError, one_line
 
 TITLE = "###file dialog"
@@ -77,6 +78,8 @@ class FileDialog:
         else:
             if not path.name.lower().endswith(question.endings):
                 path = path.with_name(path.name + question.endings[0])
+            if question.endings != ("",):
+                check_writable(path)
             if path.is_file() and path != self._replace:
                 self._replace = path
                 problem = f"{one_line(path.name)} is there already"

@@ -46,7 +46,7 @@ class FigureBox:
     def draw(self) -> bool:
         """Draw the box. Return True while it stays open."""
         center, flags = imgui.get_main_viewport().get_center(), imgui.WindowFlags_
-        imgui.set_next_window_pos(center, imgui.Cond_.appearing, ImVec2(0.5, 0.5))
+        imgui.set_next_window_pos(center, imgui.Cond_.always, ImVec2(0.5, 0.5))
         kind = flags.no_docking | flags.always_auto_resize | flags.no_collapse
         _, stays = imgui.begin(TITLE, True, kind | flags.no_saved_settings)
         self.focused = imgui.is_window_focused()

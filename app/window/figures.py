@@ -181,7 +181,7 @@ def _images(state: AppState, choice: FigureChoice, frames: Sequence[Frame]) -> I
 def _reading(host: Host) -> Reading:
     reading = host.view(ProbeView).reading
     if reading is None:
-        raise LucidaError("the probe", "shows no pixel", "mark one, and show the probe")
+        raise LucidaError("the probe", "shows no pixel", "mark one, and open Instruments > Probe")
     return reading
 
 

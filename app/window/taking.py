@@ -104,12 +104,18 @@ def _take_scene(window: Taker, opened: OpenedScene, view: View | None) -> None:
             take_newer(window, old, scene)
     else:
         open_ = partial(
-            window.leave_scene, lambda: window.change(window.state.with_scene(scene, view))
+            window.leave_scene, lambda: window.change(_with_other_scene(window.state, scene, view))
         )
         if _is_for_the_scene(state, opened):
             _add_or_open(window, opened, open_)
         else:
             open_()
+
+
+def _with_other_scene(state: AppState, scene: Scene, view: View | None) -> AppState:
+    """Return the state with another scene, all of which the outside view sees."""
+    state = state.with_scene(scene, view)
+    return state.with_options(replace(state.options.outside, camera=None))
 
 
 def take_newer(window: Taker, old: Scene, new: Scene) -> None:

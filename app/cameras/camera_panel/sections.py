@@ -130,10 +130,10 @@ def words_section(state: AppState, size: Size, fonts: theme.Fonts) -> tuple[AppS
     wish = None
     if imgui.button("Copy K, R, t", (-1, 0)):
         wish = Wish(partial(_copy_words, words=words.copied), leaves=False)
-    rows.tip("All digits, as Python reads them and as Paste does.")
+    rows.tip("With all digits, in a form that Python and Edit > Paste camera can read.")
     return state, wish
 
 
 def _copy_words(host: Host, words: str) -> None:
     imgui.set_clipboard_text(words)
-    host.files.say("K, R and t are in the clipboard.")
+    host.files.say("K, R and t are on the clipboard.")

@@ -19,8 +19,8 @@ from lucida.renderer.system.errors import LucidaError, errors_as
 
 # The phrases for the two pixel origins in CameraSet.taken.
 ORIGIN_TOLD: dict[PixelOrigin, str] = {
-    "center": "whole numbers stand at the pixels' centres",
-    "corner": "whole numbers stand at the pixels' corners, centres at .5",
+    "center": "integer coordinates at pixel centres",
+    "corner": "integer coordinates at pixel corners, centres at .5",
 }
 
 SHOWN = 8  # unused keys that a note names; the others are counted

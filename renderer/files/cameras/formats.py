@@ -61,7 +61,7 @@ FORMATS = (
     Format("colmap", "COLMAP's model", "the files cameras and images", ()),
     Format("nerf", "NeRF's and nerfstudio's transforms.json", _FRAMES, ()),
     Format("opengl", "OpenGL's view and projection matrices", _MATRICES, (".txt",)),
-    Format("opencv", "OpenCV's K, R and t, or a calibration of its family", _K, (".yml",)),
+    Format("opencv", "OpenCV's K, R and t, or a calibration file like OpenCV's", _K, (".yml",)),
     Format("gltf", "cameras of a glTF file", "an asset with cameras", (".gltf",)),
 )
 
@@ -140,7 +140,7 @@ def recognised(found: Given) -> Format:
         remedy = "give the folder of a COLMAP model, such as sparse/0, or a file of cameras"
         raise LucidaError("", "is a folder without cameras", remedy)
     wanted = ", ".join(f"{entry.needs} ({entry.name})" for entry in FORMATS)
-    remedy = f"export glTF or COLMAP there, or give {wanted}"
+    remedy = f"export the cameras as glTF or COLMAP, or give {wanted}"
     raise LucidaError("", "is not a recognised camera format", remedy)
 
 

@@ -50,7 +50,7 @@ def test_what_is_copied_for_others_comes_back_as_it_was_drawn(form: Form, parall
 def test_the_conventions_that_were_taken_are_said() -> None:
     said = read_copied("fx = fy = 100\ncx = 40\ncy = 30\nfx = 100\nfy = 100", NOW).said
     assert "OpenCV's K, R and t" in said
-    assert "whole numbers stand at the pixels' centres" in said
+    assert "integer coordinates at pixel centres" in said
     assert "80" not in said or "middle is the principal point" in said
 
 

@@ -149,7 +149,7 @@ class TestDistortion:
 MISTAKES = {
     "none.json": "none.json: does not exist",
     "none.json#1#2": "none.json#1: does not exist",
-    "text.txt": "text.txt: is not a recognised camera format; export glTF or COLMAP there",
+    "text.txt": "text.txt: is not a recognised camera format; export the cameras as glTF or COLMAP",
     "folder": "folder: is a folder without cameras; give the folder of a COLMAP model",
     "": "is a folder without cameras",
     "set.json --to gltff": "--to: 'gltff' is unknown; did you mean 'gltf'?",
