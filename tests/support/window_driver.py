@@ -1,6 +1,6 @@
 """Drives the real window with ImGui's test engine, on GLFW's null platform; a process of its own.
 
-    python window_driver.py REPORT.json FOLDER TOPIC[::DRIVE] ...
+    python window_driver.py REPORT.json FOLDER TOPIC[/DRIVE] ...
 
 runs every function of scenarios/TOPIC.py whose name begins with `drive_` (or the one named), in
 order, in one window, and writes a JSON object from their names to "" or the traceback of their
@@ -341,15 +341,21 @@ def close_at_work(report: Path, folder: Path) -> None:
     report.write_text(json.dumps({"close_at_work": "" if busy else "the tracer was not at work"}))
 
 
+def topic_of(name: str) -> str:
+    """Return the topic of TOPIC/DRIVE, or of TOPIC alone."""
+    topic, _, last = name.rpartition("/")
+    return topic if last.startswith("drive_") else name
+
+
 def drives(names: list[str]) -> dict[str, Callable[[Driver], None]]:
-    """Return drives by their names, TOPIC::DRIVE. The scenarios import this module."""
+    """Return drives by their names, TOPIC/DRIVE. The scenarios import this module."""
     sys.modules["window_driver"] = sys.modules[__name__]
     scenarios = Path(__file__).parents[1] / "app" / "window" / "scenarios"
     found = {}
-    for topic in dict.fromkeys(name.partition("::")[0] for name in names):
+    for topic in dict.fromkeys(map(topic_of, names)):
         functions = runpy.run_path(str(scenarios / f"{topic}.py")).items()
-        found |= {f"{topic}::{name}": one for name, one in functions if name.startswith("drive_")}
-    return {one: drive for one, drive in found.items() if {one, one.partition("::")[0]} & {*names}}
+        found |= {f"{topic}/{name}": one for name, one in functions if name.startswith("drive_")}
+    return {one: drive for one, drive in found.items() if {one, topic_of(one)} & {*names}}
 
 
 def ignore_broken_pipes() -> None:
@@ -362,7 +368,7 @@ def ignore_broken_pipes() -> None:
 def main(report: Path, folder: Path, names: list[str]) -> None:
     tests = drives(names)
     results = dict.fromkeys(tests, "was not run")
-    firsts = {one.partition("::")[0]: one for one in reversed(tests)}.values()
+    firsts = {topic_of(one): one for one in reversed(tests)}.values()
     driver = Driver(folder)
     params = driver.run.params
 

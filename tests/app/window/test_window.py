@@ -25,7 +25,7 @@ WINDOWS = 8  # each takes seconds to open: topics share them
 TOPICS = sorted((Path(__file__).parent / "scenarios").glob("*.py"))
 DRIVES = {
     path.stem: [
-        f"{path.stem}::{node.name}"
+        f"{path.stem}/{node.name}"
         for node in ast.parse(path.read_text()).body
         if isinstance(node, ast.FunctionDef) and node.name.startswith("drive_")
     ]
