@@ -12,7 +12,7 @@ from lucida.renderer.scene.model import View
 from lucida.renderer.system.atomic import file_stem
 from lucida.renderer.system.errors import one_line
 
-KINDS = "glTF .glb, page .html"
+KINDS = "glTF (.glb) or a page (.html)"
 NOT_CARRIED = "Not as it is there:"
 
 
@@ -34,6 +34,6 @@ def ask_export(host: Host) -> None:
         exported = one_line(f"Exported the scene and its camera as {path}.")
         return "\n".join((exported, NOT_CARRIED, *notes) if notes else (exported,))
 
-    title = f"Export the scene and its camera: {KINDS}"
+    title = f"Export the scene and its camera as {KINDS}"
     name = (file_stem(scene.name) or "scene") + ENDINGS[0]
     host.files.save_as_dialog(title, name, (KINDS, *ENDINGS, *PAGES), write)

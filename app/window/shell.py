@@ -148,7 +148,8 @@ class Shell:
             int(imgui.Key.escape), imgui.InputFlags_.route_global
         ):
             self.escape(window)
-        self.hints.draw(window, self.stage.rects)
+        if not self.toasts.texts:  # they are read first, at the same place
+            self.hints.draw(window, self.stage.rects)
         if self.help:
             self.help = help_sheet(self._fonts, __version__)
         self.documents.draw()

@@ -133,7 +133,7 @@ def copy(window: Host, form: Form) -> None:
         window.files.message = f"Nothing was copied as {form}. {error}"
         return
     imgui.set_clipboard_text(text)
-    window.files.say(f"The camera is in the clipboard: {form}.")
+    window.files.say(f"The camera is on the clipboard: {form}.")
 
 
 def clipboard_text() -> str:

@@ -30,8 +30,12 @@ from lucida.app.ui.fields import Scale
 
 ROLES = {
     "eye": ("e", "eye", "The eye: where all viewing rays start (perspective)."),
-    "u": ("u", "right", "u: to the right in the image. A pixel's place counts in lengths of u."),
-    "v": ("v", "up", "v: up in the image. A pixel's place counts in lengths of v."),
+    "u": (
+        "u",
+        "right",
+        "u: right in the image. A pixel's position is measured in lengths of u.",
+    ),
+    "v": ("v", "up", "v: up in the image. A pixel's position is measured in lengths of v."),
     "w": ("w", "back", "w: backwards, against the view direction: the camera looks along -w."),
 }
 SECTIONS: tuple[CameraPart, ...] = ("More", "Lens", "K, R and t", "Look at")

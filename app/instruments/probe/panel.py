@@ -58,8 +58,7 @@ def toolbar(
     """
     indexing = state.options.indexing
     imgui.align_text_to_frame_padding()
-    words = indexing.words(pixel) if pixel is not None else "no pixel"
-    wrapped(f"{words}, {indexing.told}")
+    wrapped(f"{indexing.words(pixel)}, {indexing.told}" if pixel is not None else "no pixel")
     pins = state.options.probe.pins
     follow(button_width("Pin"))
     imgui.begin_disabled(pixel is None or pixel in pins)
@@ -71,7 +70,7 @@ def toolbar(
     imgui.begin_disabled(reading is None)
     if imgui.button("Copy") and reading is not None:
         imgui.set_clipboard_text(as_latex(reading, indexing))
-        say("The pixel's ray is in the clipboard: LaTeX.")
+        say("The pixel's ray is on the clipboard as LaTeX.")
     imgui.end_disabled()
     imgui.set_item_tooltip("the formulas with their numbers, as LaTeX")
     return state
