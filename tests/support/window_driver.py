@@ -234,7 +234,10 @@ class Driver:
         return box.min.x, box.min.y, box.max.x, box.max.y
 
     def images(self) -> tuple[np.ndarray, np.ndarray]:
-        """The pixels of both images as shown, int16. Tooltips are not in the way."""
+        """The pixels of both images as shown, int16. Neither tooltips nor the keyboard's frame are
+        in the way.
+        """
+        imgui.set_nav_cursor_visible(False)
         if not self.stay:
             self.move_to((3, SIZE[1] - 3))
         window, scale = self.picture(), framebuffer_scale()
