@@ -39,7 +39,7 @@ KEY_STEP = 0.01  # of the divider, by an arrow key
 GRIP_EM = 0.6  # half the width in which the divider can be taken
 LARGE_PX = 6.0  # pixels that large are marked without enlarging them
 COMPARED = "compared"  # the two images, as they are looked at; see Pictures.picture
-SMALL_EM = 22.0  # a view that is less high shows its image alone
+SMALL_EM = 20.0  # a view that is less high shows its image alone
 MUTED = 0.6  # how dark an image is that stands in for a difference
 
 
