@@ -153,13 +153,16 @@ class LectureView(Instrument):
             self._enter(window)
 
     def read_again(self, window: Host, title: str) -> None:
-        """Go to the step of a title in the open lecture, or in the built-in one, which begins."""
+        """Go to the last build, which has the whole text, of the step of a title in the open
+        lecture, or in the built-in one, which begins.
+        """
         number = None if self.session is None else self.session.lecture.number_of(title)
-        if number is not None:
-            self.go(window, number)
+        if self.session is not None and number is not None:
+            self.go(window, number, self.session.lecture.count(number) - 1)
             return
         lecture = load_lecture(BUILTIN)
-        self.give(lecture, BUILTIN, (lecture.number_of(title) or 0, 0))
+        number = lecture.number_of(title) or 0
+        self.give(lecture, BUILTIN, (number, lecture.count(number) - 1))
 
     @property
     def was_left(self) -> bool:

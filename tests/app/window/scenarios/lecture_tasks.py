@@ -39,6 +39,7 @@ def drive_exercises_say_what_is_right_and_wrong(d):
     wrong = d.picture()
     d.click(item(d, f"Read again: {verdict.read}"))
     assert session.step.title == verdict.read
+    assert session.step.build == session.lecture.count(session.number) - 1  # with its whole text
     d.window.lecture.go(d.window, titles.index("Exercise: a pixel's ray"))
     d.settle()
     answer(d, "origin", "0, 0, 0")
