@@ -17,7 +17,11 @@ DESCRIPTION = """\
 Report which parts of Lucida work on this machine, and why others do not and what to install:
 OpenGL, display, ray tracer, the packages of films and notebooks, the command and the imports."""
 
-EPILOG = "exit status: 0 at least one OpenGL platform works, 1 none does"
+EPILOG = """\
+example:
+  lucida doctor
+
+exit status: 0 at least one OpenGL platform works, 1 none does"""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

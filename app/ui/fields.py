@@ -70,7 +70,7 @@ def shown_number(
 
     is_fine: the usual decimals are too few.
     """
-    value = value if abs(value) >= NOISE else 0.0
+    value = 0.0 if abs(value) < NOISE else value
     text, usual = notation.number(value), f"{value:z.{decimals}f}"
     if is_fine:
         text = f"{value:.7g}"

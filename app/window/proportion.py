@@ -100,8 +100,8 @@ class Proportion:
             if node is None or parent is None or min(*parent.size, *node.size) <= 0:
                 continue
             other = _child(layout.node_of(whole), parent)
-            if other is None:
-                continue
+            if other is None or node.is_empty() or other.is_empty():
+                continue  # the one with views has all of the room
             if tuple(node.size) == tuple(parent.size):  # nothing is next to it
                 continue
             share = self._shares.setdefault((shown.name, space), _Share())

@@ -10,9 +10,10 @@ from lucida.app.cli import main
 
 def refused(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     """Run the command, which must refuse: exit status 2, one line on standard error with what is
-    wrong and a remedy, nothing on standard output, and no file of the current folder written,
-    changed or deleted. Return the line, without the program's name.
+    wrong and a remedy, nothing on standard output, and no file of the current folder, which is the
+    test's own, written, changed or deleted. Return the line, without the program's name.
     """
+    assert not Path("pyproject.toml").exists(), "others write here: chdir first"
     before = _files()
     assert main([*words]) == 2
     out, err = capsys.readouterr()

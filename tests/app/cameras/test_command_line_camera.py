@@ -51,5 +51,8 @@ class TestCommandLine:
             ("--distance=nan", "--distance: nan is not finite"),
         ],
     )
-    def test_a_mistake_is_one_line(self, capsys, options: str, told: str) -> None:
+    def test_a_mistake_is_one_line(
+        self, tmp_path, monkeypatch, capsys, options: str, told: str
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
         assert told in refused(capsys, "render", "spheres", "-o", "a.png", options)

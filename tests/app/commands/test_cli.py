@@ -158,7 +158,7 @@ class TestMistakes:
         assert re.search(told, refused(capsys, *line.split()))
 
     @pytest.mark.parametrize("name", NAMES)
-    def test_a_misspelt_command(self, capsys, name):
+    def test_a_misspelt_command(self, capsys, in_an_empty_folder, name):
         misspelt = {name[:-1], name[0] + name[2:], name[:-2] + name[-1] + name[-2], name.upper()}
         for word in misspelt - set(NAMES):
             told = refused(capsys, word, "x.obj", "-o", "a b.png")
@@ -179,7 +179,7 @@ class TestMistakes:
     @pytest.mark.parametrize(
         "line", ["render {} -o a.png", "render spheres -o {}", "--size {}", "--{}"]
     )
-    def test_a_name_that_a_terminal_would_obey(self, capsys, name, line):
+    def test_a_name_that_a_terminal_would_obey(self, capsys, in_an_empty_folder, name, line):
         assert refused(capsys, *(part.format(name) for part in line.split()))
 
     def test_a_failure_inside_is_one_line_too(self, capsys, monkeypatch):

@@ -46,7 +46,8 @@ def test_checking_the_built_in_lecture(capsys):
         ('"array"', '"arrey"', ":12: steps[1].options.laboratory.page: 'arrey' is unknown"),
     ],
 )
-def test_mistakes_are_one_line_and_exit_status_2(old, new, told, tmp_path, capsys):
+def test_mistakes_are_one_line_and_exit_status_2(old, new, told, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
     path = tmp_path / "x.toml"
     path.write_text(LECTURE.replace(old, new, 1))
     for more in ([], ["--check"], ["--export", str(tmp_path / "out")]):

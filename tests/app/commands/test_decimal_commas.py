@@ -66,6 +66,7 @@ def test_a_typed_comma_is_refused_with_the_point_as_the_remedy(text):
         number(text)
 
 
-def test_a_comma_in_a_model_names_the_line(tmp_path, capsys):
+def test_a_comma_in_a_model_names_the_line(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
     (tmp_path / "a.obj").write_text("v 0 0 0\nv 0,5 0 0\nv 0 1 0\nf 1 2 3\n")
     assert "a.obj: line 2: 'v 0,5 0 0'" in refused(capsys, "scene", str(tmp_path / "a.obj"))

@@ -21,7 +21,9 @@ class Dock:
 
     def __init__(self, size: float, rest: float, room: float) -> None:
         self.parent = SimpleNamespace(id_=3, parent_node=None, split_axis=imgui.internal.Axis.x)
-        self.nodes = {k: SimpleNamespace(id_=k, parent_node=self.parent) for k in (1, 2)}
+        self.nodes = {
+            k: SimpleNamespace(id_=k, parent_node=self.parent, is_empty=bool) for k in (1, 2)
+        }
         for number, width in enumerate((size, rest), 1):
             self.set_size(number, (width, 1.0))
         self.resize(room)
