@@ -96,7 +96,7 @@ def test_what_is_a_scene_stays_one(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("name", "text", "problem"),
     [
-        ("transforms.json", "{}", "not a recognised camera format; export glTF"),
+        ("transforms.json", "{}", "not a recognised camera format; export the cameras as glTF"),
         ("transforms.json", "{", "line 1, column 2: expecting property name"),
         ("transforms.json", '{"frames": []}', "frames with a transform_matrix (nerf)"),
         (
