@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Any
 
 from lucida.renderer.camera.camera import Camera
@@ -45,17 +44,13 @@ def read(given: Given, options: Options) -> CameraSet:
             continue
         if len(cameras) == OBJECTS:
             raise LucidaError("nodes", f"hold more than {OBJECTS} cameras", "split the file")
-        found = gltf_camera(tree, placed)
+        found = gltf_camera(tree, placed, options.size)
         shown.add(placed.node.camera)
-        camera, fit = found.camera, not found.has_aspect
-        if fit and options.size is not None:  # the image's ratio, at the same yfov
-            wide = options.size[0] / options.size[1]
-            left, right, bottom, top = camera.viewport
-            camera, fit = replace(camera, viewport=(wide * left, wide * right, bottom, top)), False
-        elif fit:
+        fit = not found.has_aspect
+        if fit:
             name = found.name or len(cameras)
             taken.append(f"{name!r} has no aspectRatio: its yfov is of an image wider than high")
-        cameras.append(PosedCamera(camera, options.size, found.name, fit=fit))
+        cameras.append(PosedCamera(found.camera, options.size, found.name, fit=fit))
     notes = tuple(_notes(tree, shown))
     return CameraSet("gltf", tuple(cameras), (*taken, *notes), notes=notes)
 

@@ -16,6 +16,7 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import volume
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.models.gltf import PlacedNode
 from lucida.renderer.files.models.gltf_file import AGAIN, Gltf, Table
 from lucida.renderer.files.tables import explained
@@ -53,7 +54,7 @@ class GltfCamera(Table):
 
 
 class FoundCamera(NamedTuple):
-    """has_aspect: the viewport has the file's own aspect ratio; otherwise it is 1."""
+    """has_aspect: the viewport has the file's aspect ratio, or the image's; otherwise it is 1."""
 
     name: str
     camera: Camera
@@ -74,8 +75,10 @@ def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ..
     return tuple(views)
 
 
-def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
-    """Return the camera of a node that has one. Raises LucidaError naming the field."""
+def gltf_camera(tree: Gltf, placed: PlacedNode, size: Size | None = None) -> FoundCamera:
+    """Return the camera of a node that has one. size: of the image, if known; a file without
+    aspectRatio means its. Raises LucidaError naming the field.
+    """
     assert placed.node.camera is not None
     given = tree.entry("cameras", placed.node.camera)
     with under(f"cameras[{placed.node.camera}]"):
@@ -88,15 +91,18 @@ def gltf_camera(tree: Gltf, placed: PlacedNode) -> FoundCamera:
         if volume(*axes) < 0:  # a camera is not mirrored like its node
             axes[0] *= -1
         u, v, w = axes.tolist()
-        camera = Camera(placed.matrix[:3, 3].tolist(), u, v, w, **_lens(fields)).orthonormalized()
-    has_aspect = fields.perspective is None or fields.perspective.aspect_ratio is not None
+        camera = Camera(
+            placed.matrix[:3, 3].tolist(), u, v, w, **_lens(fields, size)
+        ).orthonormalized()
+    seen = fields.perspective
+    has_aspect = seen is None or seen.aspect_ratio is not None or size is not None
     return FoundCamera(placed.node.name or fields.name, camera, has_aspect)
 
 
-def _lens(fields: GltfCamera) -> dict[str, Any]:
+def _lens(fields: GltfCamera, size: Size | None) -> dict[str, Any]:
     """Return the camera's fields except its pose."""
     if fields.type == "perspective" and (seen := fields.perspective) is not None:
-        half = (seen.aspect_ratio or 1.0) / 2
+        half = (seen.aspect_ratio or (size[0] / size[1] if size is not None else 1.0)) / 2
         lens: dict[str, Any] = {
             "distance": 0.5 / math.tan(seen.yfov / 2),
             "viewport": (-half, half, -0.5, 0.5),

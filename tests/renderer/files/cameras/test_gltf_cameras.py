@@ -103,6 +103,8 @@ def test_without_an_aspect_ratio_the_height_s_angle_stays():
     seen = one(tree(PERSPECTIVE))
     assert seen.fit and seen.size is None
     assert seen.camera.fitted((200, 100)).fov_y_deg == pytest.approx(math.degrees(0.8))
+    seen = one(tree(PERSPECTIVE), size=(30, 90))  # an image that is higher than wide
+    assert not seen.fit and seen.camera.viewport == pytest.approx((-1 / 6, 1 / 6, -0.5, 0.5))
 
 
 def test_clip_planes_are_kept_and_what_was_taken_is_told():
