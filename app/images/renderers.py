@@ -203,7 +203,7 @@ class Renderers(ImageSize):
         request = self.request(state)
         assert request is not None
         read = self._raster_values(request, (stored(channel),), region)
-        return _of_channel(channel, request, read[stored(channel)], region) if read else None
+        return request.shown(channel, read[stored(channel)], region) if read else None
 
     def _raster_values(
         self, request: ImageRequest, channels: tuple[str, ...], region: Region
@@ -220,7 +220,7 @@ class Renderers(ImageSize):
             return None
         top, left, bottom, right = region
         values = image.shown(stored(channel))[top:bottom, left:right]
-        return _of_channel(channel, image.request, values, region)
+        return image.request.shown(channel, values, region)
 
     # Progress and errors.
 
@@ -387,14 +387,6 @@ class Renderers(ImageSize):
         if image is None or pixel[0] >= image.frame.size[1] or pixel[1] >= image.frame.size[0]:
             return None
         return image.frame
-
-
-def _of_channel(channel: str, request: ImageRequest, values: NDArray, region: Region) -> NDArray:
-    """Return a region's values; distances in place of its ray parameters if the channel is z."""
-    if channel != "z":
-        return values
-    top, left, bottom, right = region
-    return request.camera.z_from_t(values, request.size, (slice(top, bottom), slice(left, right)))
 
 
 def look_of(options: ImageOptions) -> Look:

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
+from numpy.typing import NDArray
+
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import ENLARGEMENT
 from lucida.renderer.editing.documents import are_versions
+from lucida.renderer.raster.targets import Region
 from lucida.renderer.scene.model import Scene
 
 MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown
@@ -41,6 +44,15 @@ class ImageRequest:
         if not self.has_effects and self.samples == 1:
             return self
         return replace(self, shadows=False, mirrors=False, samples=1)
+
+    def shown(self, channel: str, values: NDArray, region: Region) -> NDArray:
+        """Return a region's values; distances in place of its ray parameters if the channel is
+        z.
+        """
+        if channel != "z":
+            return values
+        top, left, bottom, right = region
+        return self.camera.z_from_t(values, self.size, (slice(top, bottom), slice(left, right)))
 
     def may_stand_in_for(self, newer: ImageRequest | None) -> bool:
         """Return True if its image may be shown until that of a newer request comes.

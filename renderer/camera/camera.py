@@ -32,7 +32,7 @@ from lucida.renderer.camera.checks import (
     positive,
     volume,
 )
-from lucida.renderer.camera.image_plane import Projected, Ray, Size
+from lucida.renderer.camera.image_plane import WHOLE, Part, Projected, Ray, Size
 from lucida.renderer.camera.intrinsics import (
     Intrinsics,
     as_camera_from_world,
@@ -237,9 +237,7 @@ class Camera:
         direction = self.lens_directions(size) @ self.basis.T
         return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
 
-    def z_from_t(
-        self, t: ArrayLike, size: Size, part: tuple[slice, slice] = (slice(None), slice(None))
-    ) -> Floats:
+    def z_from_t(self, t: ArrayLike, size: Size, part: Part = WHOLE) -> Floats:
         """Return the distances z along -w, in units of w, of the ray parameters t of a part of the
         pixels: both (rows, columns). It is infinite where t is.
         """

@@ -17,6 +17,8 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.camera.pixels import Pixel
 
 Size = tuple[int, int]
+Part = tuple[slice, slice]  # rows, columns
+WHOLE: Part = slice(None), slice(None)
 Viewport = tuple[float, float, float, float]
 
 LARGEST_KEPT = 1 << 21  # pixels of a lens's directions that are kept: 48 MB

@@ -1,4 +1,4 @@
-"""What every refusal of the command line has."""
+"""Check a refusal of the command line for what every one must have."""
 
 import re
 from pathlib import Path

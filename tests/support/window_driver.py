@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import json
 import os
-import runpy
 import signal
 import sys
 import threading
@@ -26,6 +25,8 @@ os.environ.pop("DISPLAY", None)
 os.environ.pop("WAYLAND_DISPLAY", None)
 
 import numpy as np
+from drives import drives, topic_of
+from glimpses import Glimpses
 from imgui_bundle import hello_imgui, imgui
 from option_changes import with_options
 from PIL import Image
@@ -37,10 +38,8 @@ from lucida.app.instruments.outside import mouse as outside_mouse
 from lucida.app.state.app_state import AppState, History
 from lucida.app.state.options import Options
 from lucida.app.ui import layout, toasts
-from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.app.window import main_window, viewer
-from lucida.app.window.canvas import WindowCanvas
 from lucida.app.window.files import Files
 from lucida.app.window.platform import start_platform
 from lucida.app.window.viewer import WindowRun
@@ -59,20 +58,6 @@ PATIENT_S = 300.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
 Key = imgui.Key
 Found = TypeVar("Found")
-
-
-class Glimpses(WindowCanvas):
-    """Frames that nobody looks at are drawn into one pixel: it is a processor that draws them."""
-
-    is_seen: Callable[[], bool]
-
-    def bind(self, size: tuple[int, int], unfinished: bool) -> Target:
-        return super().bind(size if self.is_seen() else (1, 1), unfinished)
-
-    @property
-    def shown(self) -> Target | None:
-        shown = super().shown
-        return shown if shown is not None and shown.size != (1, 1) else None
 
 
 class Driver:
@@ -344,23 +329,6 @@ def close_at_work(report: Path, folder: Path) -> None:
     report.write_text(json.dumps({"close_at_work": "" if busy else "the tracer was not at work"}))
 
 
-def topic_of(name: str) -> str:
-    """Return the topic of TOPIC/DRIVE, or of TOPIC alone."""
-    topic, _, last = name.rpartition("/")
-    return topic if last.startswith("drive_") else name
-
-
-def drives(names: list[str]) -> dict[str, Callable[[Driver], None]]:
-    """Return drives by their names, TOPIC/DRIVE. The scenarios import this module."""
-    sys.modules["window_driver"] = sys.modules[__name__]
-    scenarios = Path(__file__).parents[1] / "app" / "window" / "scenarios"
-    found = {}
-    for topic in dict.fromkeys(map(topic_of, names)):
-        functions = runpy.run_path(str(scenarios / f"{topic}.py")).items()
-        found |= {f"{topic}/{name}": one for name, one in functions if name.startswith("drive_")}
-    return {one: drive for one, drive in found.items() if {one, topic_of(one)} & {*names}}
-
-
 def ignore_broken_pipes() -> None:
     """As Python does. The test engine takes the signal for a crash and aborts, or hangs while it
     prints: whenever something is written to a process that has just been ended."""
@@ -369,6 +337,7 @@ def ignore_broken_pipes() -> None:
 
 
 def main(report: Path, folder: Path, names: list[str]) -> None:
+    sys.modules["window_driver"] = sys.modules[__name__]  # which the scenarios import
     tests = drives(names)
     results = dict.fromkeys(tests, "was not run")
     firsts = {topic_of(one): one for one in reversed(tests)}.values()
