@@ -14,10 +14,11 @@ import sys
 import traceback
 from collections.abc import Sequence
 
-from lucida.app.commands import COMMANDS, WITHOUT_FILE, scenes, view
-from lucida.app.commands.arguments import TRACEBACK_VARIABLE, Parser
-from lucida.app.window.process import open_streams
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
+
+from .commands import COMMANDS, WITHOUT_FILE, scenes, view
+from .commands.arguments import TRACEBACK_VARIABLE, Parser
+from .window.process import open_streams
 
 FAILED = 2
 INTERRUPTED = 128 + signal.SIGINT

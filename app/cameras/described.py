@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from lucida.app.cameras.basis import measures
-from lucida.app.cameras.other_words import of_any_size
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras import CameraSet, PosedCamera, format_named
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import one_line
+
+from .basis import measures
+from .other_words import of_any_size
 
 LISTED = 3  # cameras in a file, and sizes
 ROUNDING = 1e-14  # of a vector's largest component: less is rounding

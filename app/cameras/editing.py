@@ -8,10 +8,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import Any
 
-from lucida.app.cameras.basis import with_component
 from lucida.app.state.app_state import AppState
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.system.errors import LucidaError
+
+from .basis import with_component
 
 BASIS = ("u", "v", "w")
 

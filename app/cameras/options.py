@@ -130,7 +130,7 @@ def _check_beside(given: dict[str, Any]) -> None:
 
 def _looking(view: View, given: dict[str, Any]) -> View:
     """Return the view towards --target or, with --up alone, rotated about its own direction."""
-    from lucida.app.cameras.presets import look_at
+    from .presets import look_at
 
     camera = view.camera
     ahead = [eye - back for eye, back in zip(camera.eye, camera.w, strict=True)]

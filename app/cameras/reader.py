@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from lucida.app.cameras.taken import TakenCamera, is_fitted, told_of
 from lucida.renderer.files import view_from_toml
 from lucida.renderer.files.cameras import FORMATS, PosedCamera, one_of, opengl, read_cameras
 from lucida.renderer.files.cameras.given import Given
@@ -16,6 +15,8 @@ from lucida.renderer.files.tables import parse_toml
 from lucida.renderer.files.views import view_from_table
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
+
+from .taken import TakenCamera, is_fitted, told_of
 
 SOURCE = "clipboard"
 MOST_CHARACTERS = 100_000

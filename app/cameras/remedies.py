@@ -7,10 +7,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from lucida.app.cameras.presets import framed
 from lucida.app.state.app_state import AppState
 from lucida.renderer.compare.why_black import Darkness, Reason, exposure_for
 from lucida.renderer.scene.focus import Focus
+
+from .presets import framed
 
 FRAME, CUT_NOTHING, EXPOSE = "Frame the scene", "Without near and far", "Set the exposure"
 _REMEDIES = {

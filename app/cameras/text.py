@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any, Literal, get_args
 
-from lucida.app.cameras.presets import clip_around
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
@@ -19,6 +18,8 @@ from lucida.renderer.files import view_to_toml
 from lucida.renderer.files.cameras import PosedCamera, opengl, written
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
+
+from .presets import clip_around
 
 Form = Literal[
     "view file", "Python", "OpenGL matrices", "OpenCV", "glTF"

@@ -10,11 +10,12 @@ import time
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
 
-from lucida.app.cameras.animation import Passage
 from lucida.app.state.app_state import AppState, is_orthonormal
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.scene.model import View
+
+from .animation import Passage
 
 DURATION_S = 0.5
 

@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lucida.app.checking.conventions import Conventions, Shot
-from lucida.app.checking.tasks import CAMERA_KINDS, RIGID_KINDS, CheckTask
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
+
+from .conventions import Conventions, Shot
+from .tasks import CAMERA_KINDS, RIGID_KINDS, CheckTask
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

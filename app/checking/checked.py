@@ -9,15 +9,16 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.running.program import ProgramStudent, told_call
-from lucida.app.checking.tasks import CheckCase, CheckTask, Failure, Run
 from lucida.renderer.files.reading import close_matches
 from lucida.renderer.system.errors import one_line, visible
 
+from .kinds import KINDS
+from .kinds.kind import CheckKind
+from .running.program import ProgramStudent, told_call
+from .tasks import CheckCase, CheckTask, Failure, Run
+
 if TYPE_CHECKING:
-    from lucida.app.checking.mistakes.diagnosis import Diagnosis
+    from .mistakes.diagnosis import Diagnosis
 
 Status = Literal["right", "wrong", "failed"]
 LONGEST_VALUE = 400  # characters of an argument, enough to try the case by hand
@@ -182,7 +183,7 @@ def _diagnosis(
     if task.feedback != "diagnosis":
         return None
     # Loads the mistakes, so only if there are some.
-    from lucida.app.checking.mistakes.diagnosis import diagnosis
+    from .mistakes.diagnosis import diagnosis
 
     return diagnosis(task, cases, given, wrong)
 

@@ -14,10 +14,11 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.checking.words import GROUPS, PARTS
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
+
+from .words import GROUPS, PARTS
 
 Whole = NDArray[np.intp]
 Named = tuple[tuple[str, str], ...]  # (name in the student's program, word)

@@ -12,14 +12,15 @@ import re
 import textwrap
 from collections.abc import Iterator, Mapping, Sequence
 
-from lucida.app.checking.conventions import CAMERA, CAMERA_WORDS
-from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.mistakes.programs import program_of
-from lucida.app.checking.mistakes.vectors import FUNCTIONS
-from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.words import PARTS
 from lucida.app.ui.explaining.symbols import arguments, program, spoken
 from lucida.renderer.system.errors import visible
+
+from .conventions import CAMERA, CAMERA_WORDS
+from .kinds import KINDS
+from .mistakes.programs import program_of
+from .mistakes.vectors import FUNCTIONS
+from .tasks import CheckTask
+from .words import PARTS
 
 AS_IF = "Your code behaves like"
 _NAME = re.compile(r"(?<![\w.'])[A-Za-z_]\w*")

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from typing import Any
 
-from lucida.app.checking.checked import TaskResult
-from lucida.app.checking.own_words import signature
-from lucida.app.checking.tasks import CheckTask
 from lucida.renderer.system.errors import one_line, visible
+
+from .checked import TaskResult
+from .own_words import signature
+from .tasks import CheckTask
 
 VERDICTS = {"right": "correct"}  # a status in words, where it is not its own
 MOST = 8  # printed lines to show on the terminal

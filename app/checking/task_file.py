@@ -15,24 +15,25 @@ from typing import Any
 
 import msgspec
 
-from lucida.app.checking.cases import camera_kinds
-from lucida.app.checking.conventions import (
-    CAMERA_WORDS,
-    PAIRS,
-    PIXEL_WORDS,
-    Conventions,
-    Named,
-)
-from lucida.app.checking.kinds import KINDS
-from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.task_schema import ConventionsTable, TaskFile, TaskTable
-from lucida.app.checking.tasks import CAMERA_KINDS, MOST_CALLS, WITH_CAMERAS, CheckTask, Limits
 from lucida.app.ui.explaining.symbols import Notation, spoken
 from lucida.renderer.files.places import Places, located
 from lucida.renderer.files.reading import decode_text, read_file, suggestion
 from lucida.renderer.files.tables import parse_toml, to_struct
 from lucida.renderer.scene.limits import TOML_BYTES
 from lucida.renderer.system.errors import LucidaError, under
+
+from .cases import camera_kinds
+from .conventions import (
+    CAMERA_WORDS,
+    PAIRS,
+    PIXEL_WORDS,
+    Conventions,
+    Named,
+)
+from .kinds import KINDS
+from .kinds.kind import CheckKind
+from .task_schema import ConventionsTable, TaskFile, TaskTable
+from .tasks import CAMERA_KINDS, MOST_CALLS, WITH_CAMERAS, CheckTask, Limits
 
 TASKS = 100
 # Fields of older files, and their values that may be ignored because they still hold. With others,

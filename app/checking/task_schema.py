@@ -9,9 +9,10 @@ from typing import Annotated, Any, Literal
 
 from msgspec import Meta, field
 
-from lucida.app.checking.tasks import Feedback
 from lucida.app.ui.explaining.symbols import Notation
 from lucida.renderer.files.schema import Numbers3, StrictTable
+
+from .tasks import Feedback
 
 Seed = Annotated[int, Meta(ge=0)]
 Side = Annotated[int, Meta(ge=1, le=512)]  # of a task's images

@@ -11,12 +11,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from lucida.app.checking.conventions import Conventions
 from lucida.app.ui.explaining.symbols import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.shared_numbers import LUMINANCE
+
+from .conventions import Conventions
 
 Kind = Literal["missing", "exception", "time", "memory", "ended", "answer"]
 

@@ -4,7 +4,7 @@ run(arguments).
 Without a command's name, `lucida` runs app/commands/view.py: the window.
 """
 
-from lucida.app.commands import (
+from . import (
     animate,
     camera,
     check,

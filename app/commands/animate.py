@@ -8,11 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lucida.app.cameras.options import add_camera_options
-from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import add_view_option
-from lucida.app.commands.many import add_workers_options, look_of, make_film
-from lucida.app.commands.render import check_effects
 from lucida.renderer.system.errors import LucidaError, counted, one_line
+
+from . import arguments as common
+from .given_camera import add_view_option
+from .many import add_workers_options, look_of, make_film
+from .render import check_effects
 
 if TYPE_CHECKING:
     from lucida.renderer.camera.camera import Camera

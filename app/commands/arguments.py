@@ -13,9 +13,10 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NoReturn
 
 from lucida.app.cameras.options import with_camera_options
-from lucida.app.commands.given_camera import say_changes, viewed
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError, one_line, visible
+
+from .given_camera import say_changes, viewed
 
 if TYPE_CHECKING:
     from tqdm import tqdm

@@ -12,12 +12,13 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import (
+from lucida.renderer.system.errors import LucidaError, counted, errors_as, one_line, visible
+
+from . import arguments as common
+from .given_camera import (
     say_changes,
     say_notes,
 )
-from lucida.renderer.system.errors import LucidaError, counted, errors_as, one_line, visible
 
 if TYPE_CHECKING:
     from lucida.renderer.files.cameras import CameraSet, PosedCamera

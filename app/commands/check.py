@@ -14,9 +14,10 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lucida.app.commands import arguments as common
-from lucida.app.commands.asked_tasks import all_tasks, named
 from lucida.renderer.system.errors import LucidaError, one_line, visible
+
+from . import arguments as common
+from .asked_tasks import all_tasks, named
 
 if TYPE_CHECKING:
     from lucida.app.checking.checked import TaskResult

@@ -6,8 +6,9 @@ import argparse
 import json
 
 from lucida.app.cameras.options import add_camera_options
-from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import add_view_option
+
+from . import arguments as common
+from .given_camera import add_view_option
 
 NAME = "compare"
 

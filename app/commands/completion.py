@@ -5,8 +5,8 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from lucida.app.commands import view
-from lucida.app.commands.arguments import Parser
+from . import view
+from .arguments import Parser
 
 NAME = "completion"
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 
 from lucida.app.cameras.options import add_camera_options
-from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import add_view_option
 from lucida.renderer.system.errors import counted, one_line
+
+from . import arguments as common
+from .given_camera import add_view_option
 
 NAME = "export"
 

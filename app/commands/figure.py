@@ -6,9 +6,10 @@ import argparse
 from typing import get_args
 
 from lucida.app.cameras.options import add_camera_options
-from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import add_view_option
 from lucida.renderer.system.errors import LucidaError, one_line
+
+from . import arguments as common
+from .given_camera import add_view_option
 
 NAME = "figure"
 

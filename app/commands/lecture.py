@@ -9,9 +9,10 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lucida.app.commands import arguments as common
-from lucida.app.commands.view import window_size
 from lucida.renderer.system.errors import LucidaError, counted, one_line
+
+from . import arguments as common
+from .view import window_size
 
 if TYPE_CHECKING:
     from lucida.app.lecture.model import Lecture

@@ -8,8 +8,9 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from lucida.app.commands import arguments as common
 from lucida.renderer.system.errors import one_line
+
+from . import arguments as common
 
 if TYPE_CHECKING:
     from lucida.app.cameras.films.film import Film

@@ -6,10 +6,11 @@ import argparse
 import json
 
 from lucida.app.cameras.options import add_camera_options
-from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import add_view_option
 from lucida.renderer.camera.pixels import Pixel
 from lucida.renderer.system.errors import LucidaError
+
+from . import arguments as common
+from .given_camera import add_view_option
 
 NAME = "pick"
 

@@ -7,10 +7,11 @@ from contextlib import closing
 from typing import TYPE_CHECKING
 
 from lucida.app.cameras.options import add_camera_options
-from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import add_view_option
-from lucida.app.commands.many import add_workers_options, look_of
 from lucida.renderer.system.errors import LucidaError, one_line
+
+from . import arguments as common
+from .given_camera import add_view_option
+from .many import add_workers_options, look_of
 
 if TYPE_CHECKING:
     from lucida.renderer.camera.camera import Camera
@@ -102,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.renderer != "ray":
         check_effects(arguments)
     if arguments.all:
-        from lucida.app.commands.render_many import render_all
+        from .render_many import render_all
 
         return render_all(arguments)
     if arguments.format:
@@ -110,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
     ending = check_image_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
     if is_in_parts(arguments):
-        from lucida.app.commands.render_many import render_in_parts
+        from .render_many import render_in_parts
 
         return render_in_parts(scene, camera, arguments, ending)
     frame = draw(scene, camera, arguments)

@@ -12,9 +12,6 @@ from lucida.app.cameras.films.encoding import image_writer
 from lucida.app.cameras.films.film import Film
 from lucida.app.cameras.films.frames import Look, Shot
 from lucida.app.cameras.options import with_camera_options
-from lucida.app.commands import arguments as common
-from lucida.app.commands.given_camera import say_notes
-from lucida.app.commands.many import look_of, make_film
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras import PosedCamera, read_cameras
@@ -24,6 +21,10 @@ from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.scene.precision import check_precision
 from lucida.renderer.system.atomic import file_stem
 from lucida.renderer.system.errors import LucidaError, counted, one_line
+
+from . import arguments as common
+from .given_camera import say_notes
+from .many import look_of, make_film
 
 JOINED = (".png", ".exr")  # formats of an image in parts
 PART_PIXELS = 1 << 21

@@ -28,15 +28,16 @@ examples:
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    from lucida.app.commands.arguments import SCENE_HELP
+    from .arguments import SCENE_HELP
 
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.app.commands.arguments import check_is_scene, say
     from lucida.renderer.files import load_scene
+
+    from .arguments import check_is_scene, say
 
     check_is_scene(arguments.scene)
     scene = load_scene(arguments.scene)

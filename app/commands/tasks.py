@@ -6,7 +6,7 @@ import argparse
 import textwrap
 from typing import TYPE_CHECKING
 
-from lucida.app.commands.arguments import say
+from .arguments import say
 
 if TYPE_CHECKING:
     from lucida.app.checking.tasks import CheckTask
@@ -36,7 +36,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from lucida.app.checking.courses import course_names
-    from lucida.app.commands.asked_tasks import all_tasks, named
+
+    from .asked_tasks import all_tasks, named
 
     tasks, _ = all_tasks(arguments.tasks)
     if arguments.task is not None:

@@ -9,8 +9,9 @@ from pathlib import Path
 
 from lucida import __version__
 from lucida.app.cameras.options import CAMERA_OPTIONS, add_camera_options, with_camera_options
-from lucida.app.commands.arguments import SCENE_HELP, size
-from lucida.app.commands.given_camera import add_view_option, viewed
+
+from .arguments import SCENE_HELP, size
+from .given_camera import add_view_option, viewed
 
 NAME = "view"
 SMALLEST_SIDE = 64  # of the window, in pixels
@@ -93,13 +94,14 @@ def shown_size(own: tuple[int, int]) -> tuple[int, int]:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.app.commands.arguments import check_is_scene
     from lucida.app.images.photograph.reading import found_photograph
     from lucida.app.instruments.poses.model import PoseSet
     from lucida.app.instruments.poses.reading import open_cameras
     from lucida.app.window.kinds import found_code, kind_of
     from lucida.renderer.images import check_image_path
     from lucida.renderer.scene.model import View
+
+    from .arguments import check_is_scene
 
     screenshot = None
     if arguments.screenshot is not None:

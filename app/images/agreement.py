@@ -6,14 +6,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lucida.app.images.progressive_ray import RayImage
-from lucida.app.images.request import ImageRequest
 from lucida.app.ui.background import Background
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.flat import FlatScene, flatten
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.scene.precision import check_precision
 from lucida.renderer.system.errors import LucidaError
+
+from .progressive_ray import RayImage
+from .request import ImageRequest
 
 if TYPE_CHECKING:
     from lucida.renderer.compare.raster_and_ray import Comparison

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from lucida.app.images.placement import Placement, common_pane, place
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import ImageOptions
 from lucida.renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
 from lucida.renderer.system.memo import Memo
+
+from .placement import Placement, common_pane, place
 
 NEARBY_PX = 4  # by which the halves of a window may differ
 UNSEEN_SIZE = (640, 480)  # of images that no view shows

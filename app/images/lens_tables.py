@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from lucida.app.images.request import ImageRequest
 from lucida.app.ui.background import Background
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lens_faces import looked_up_faces
+
+from .request import ImageRequest
 
 Key = tuple[object, ...]
 

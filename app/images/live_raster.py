@@ -13,14 +13,15 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.images.lens_tables import LensTables
-from lucida.app.images.request import ImageRequest
-from lucida.app.images.window_rasterizer import FAILURES, WindowRasterizer
 from lucida.renderer.images.coarseness import FACTORS, reduced
 from lucida.renderer.images.frame import CHANNELS, Frame
 from lucida.renderer.raster import Rasterizer
 from lucida.renderer.raster.targets import Region, Textures
 from lucida.renderer.system.memo import Memo
+
+from .lens_tables import LensTables
+from .request import ImageRequest
+from .window_rasterizer import FAILURES, WindowRasterizer
 
 # Returns the image to draw for a request, and how many times coarser.
 Choice = Callable[[ImageRequest], tuple[ImageRequest, int]]

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 
-from lucida.app.images.request import ImageRequest
 from lucida.renderer.images.coarseness import STILL_S, Coarseness
+
+from .request import ImageRequest
 
 BUDGET_S = 1 / 60  # for both images, while anything moves
 

@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.images.request import ImageRequest
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.coarseness import reduced
 from lucida.renderer.images.frame import CHANNELS, Frame
 from lucida.renderer.images.samples import Progress, supersampled
 from lucida.renderer.scene.model import Scene
+
+from .request import ImageRequest
 
 if TYPE_CHECKING:  # its import loads the compiler
     from lucida.renderer.trace import TraceJob, Tracer

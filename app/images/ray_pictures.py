@@ -10,12 +10,13 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.app.images.progressive_ray import LiveTrace
-from lucida.app.images.scene_tracer import SceneTracer, UnwantedError, of_scene
 from lucida.app.ui.background import Background
 from lucida.renderer.editing.documents import are_versions
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
+
+from .progressive_ray import LiveTrace
+from .scene_tracer import SceneTracer, UnwantedError, of_scene
 
 T = TypeVar("T")
 Range = tuple[float, float]

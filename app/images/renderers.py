@@ -13,17 +13,6 @@ from dataclasses import replace
 import moderngl
 from numpy.typing import NDArray
 
-from lucida.app.images.agreement import Agreement, Verdict
-from lucida.app.images.image_size import ImageSize
-from lucida.app.images.pace import Pace
-from lucida.app.images.picking import object_on_ray
-from lucida.app.images.placement import Placement
-from lucida.app.images.progressive_ray import LiveTrace, RayImage
-from lucida.app.images.request import ImageRequest
-from lucida.app.images.scene_tracer import tracer_for
-from lucida.app.images.shown import Picture
-from lucida.app.images.textures import PANE, ImageTextures
-from lucida.app.images.window_rasterizer import FAILURES
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import ImageOptions
 from lucida.app.ui.background import lower_priority
@@ -36,6 +25,18 @@ from lucida.renderer.raster.targets import Region
 from lucida.renderer.scene.model import View
 from lucida.renderer.system import compile_note
 from lucida.renderer.system.memo import Memo
+
+from .agreement import Agreement, Verdict
+from .image_size import ImageSize
+from .pace import Pace
+from .picking import object_on_ray
+from .placement import Placement
+from .progressive_ray import LiveTrace, RayImage
+from .request import ImageRequest
+from .scene_tracer import tracer_for
+from .shown import Picture
+from .textures import PANE, ImageTextures
+from .window_rasterizer import FAILURES
 
 NOTE_AFTER_S = 0.3
 

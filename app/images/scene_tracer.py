@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from lucida.app.images.request import MIRROR_DEPTH, ImageRequest
 from lucida.renderer.scene.model import Scene
+
+from .request import MIRROR_DEPTH, ImageRequest
 
 if TYPE_CHECKING:
     from lucida.renderer.trace import Tracer

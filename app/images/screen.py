@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.images.placement import Placement
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.theme import framebuffer_scale
+
+from .placement import Placement
 
 Box = tuple[ImVec2, ImVec2]  # upper left and lower right corner
 

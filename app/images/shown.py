@@ -13,10 +13,11 @@ from dataclasses import dataclass
 
 import moderngl
 
-from lucida.app.images.placement import Placement, Size
 from lucida.renderer.raster import Display, Look, Section
 from lucida.renderer.raster.resources import new_texture
 from lucida.renderer.system.memo import Memo
+
+from .placement import Placement, Size
 
 
 @dataclass(frozen=True, eq=False)

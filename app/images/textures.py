@@ -6,14 +6,15 @@ import contextlib
 
 import moderngl
 
-from lucida.app.images.live_raster import Choice, LiveRaster, RasterImage
-from lucida.app.images.placement import Placement
-from lucida.app.images.progressive_ray import RayImage
-from lucida.app.images.request import ImageRequest
-from lucida.app.images.shown import DepthBounds, Picture, Pictures, Source, whole
-from lucida.app.images.window_rasterizer import FAILURES, WindowRasterizer
 from lucida.renderer.raster import DepthRange, Look, upload
 from lucida.renderer.system.memo import Memo
+
+from .live_raster import Choice, LiveRaster, RasterImage
+from .placement import Placement
+from .progressive_ray import RayImage
+from .request import ImageRequest
+from .shown import DepthBounds, Picture, Pictures, Source, whole
+from .window_rasterizer import FAILURES, WindowRasterizer
 
 PANE, WHOLE = "pane", "whole"
 ATTEMPTS = 3  # to upload a ray image, one per frame

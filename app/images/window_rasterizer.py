@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import moderngl
 
-from lucida.app.images.request import ImageRequest
 from lucida.renderer.raster import Prepared, Rasterizer
 from lucida.renderer.raster.targets import Textures
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
+
+from .request import ImageRequest
 
 # Errors of drawing, which are shown to the user, and do not end the program.
 FAILURES = (LucidaError, moderngl.Error, MemoryError)

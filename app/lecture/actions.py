@@ -7,10 +7,11 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from lucida.app.lecture.reading import BUILTINS, load_lecture
-from lucida.app.lecture.view import LectureView
 from lucida.app.ui.action import Action
 from lucida.app.ui.host import Host
+
+from .reading import BUILTINS, load_lecture
+from .view import LectureView
 
 
 def _given(window: Host) -> bool:

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import msgspec
 
-from lucida.app.lecture.model import Lecture, Step
 from lucida.app.state.kept_lecture import Answers, Judgement
 from lucida.renderer.system.atomic import check_writable
 from lucida.renderer.system.errors import LucidaError, describe
+
+from .model import Lecture, Step
 
 LONGEST_NAME = 60
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from imgui_bundle import imgui
 
-from lucida.app.lecture.answer_log import LONGEST_NAME, AnswerLog
 from lucida.app.ui import theme
 from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import button_width
+
+from .answer_log import LONGEST_NAME, AnswerLog
 
 
 def note(log: AnswerLog, is_asked: bool) -> bool:

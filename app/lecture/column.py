@@ -9,23 +9,24 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.checking.mistakes.diagnosis import READ
 from lucida.app.instruments.outside.growing import stage_at
-from lucida.app.lecture.answer_log import AnswerLog
-from lucida.app.lecture.answer_note import note
-from lucida.app.lecture.exercise import exercise
-from lucida.app.lecture.exercises import ChoiceExercise
-from lucida.app.lecture.foot import foot_height
-from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.inheriting import changed_view
-from lucida.app.lecture.model import Exercise, Step
-from lucida.app.lecture.session import LectureSession
-from lucida.app.lecture.slide import TITLE, Slides
-from lucida.app.lecture.watching_hidden import HiddenWatch
 from lucida.app.state.kept_lecture import Answers
 from lucida.app.ui import layout, theme
 from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
 from lucida.renderer.system.errors import LucidaError
+
+from .answer_log import AnswerLog
+from .answer_note import note
+from .exercise import exercise
+from .exercises import ChoiceExercise
+from .foot import foot_height
+from .hiding import HideExercise
+from .inheriting import changed_view
+from .model import Exercise, Step
+from .session import LectureSession
+from .slide import TITLE, Slides
+from .watching_hidden import HiddenWatch
 
 CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
 FADE_S = 0.5  # of a text that is added

@@ -6,9 +6,10 @@ import time
 
 from imgui_bundle import imgui
 
-from lucida.app.lecture.foot import foot
-from lucida.app.lecture.session import LectureSession
 from lucida.app.ui.host import Host
+
+from .foot import foot
+from .session import LectureSession
 
 CONTROLS_S = 2.0  # until controls disappear after the mouse stops
 DIGITS = 3  # of a step's number

@@ -7,10 +7,11 @@ from collections.abc import Hashable
 from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.lecture.ghosts import ghosts
-from lucida.app.lecture.session import LectureSession
 from lucida.app.ui.host import Host
 from lucida.renderer.system.memo import Memo
+
+from .ghosts import ghosts
+from .session import LectureSession
 
 SOURCE = "Lecture"  # of the drawing, in the outside view
 

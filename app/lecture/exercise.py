@@ -4,11 +4,6 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.lecture.exercises import ChoiceExercise, TypedExercise
-from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.model import Exercise
-from lucida.app.lecture.slide import Slides
-from lucida.app.lecture.text import parse
 from lucida.app.state.kept_lecture import Answers, Judgement
 from lucida.app.ui import theme
 from lucida.app.ui.areas import press_area
@@ -18,6 +13,12 @@ from lucida.app.ui.formula import vector_colors
 from lucida.app.ui.lettering import lettering, underline
 from lucida.app.ui.rows import button_width, follow
 from lucida.app.ui.theme import Fonts
+
+from .exercises import ChoiceExercise, TypedExercise
+from .hiding import HideExercise
+from .model import Exercise
+from .slide import Slides
+from .text import parse
 
 LETTERS = "ABCDEFGH"
 

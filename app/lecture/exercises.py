@@ -15,7 +15,6 @@ import numpy as np
 
 from lucida.app.checking.mistakes.program import Mistake
 from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_values, run_rays
-from lucida.app.lecture.text import escaped
 from lucida.app.state.kept_lecture import Judgement
 from lucida.app.ui.explaining import symbols
 from lucida.app.ui.explaining.arithmetic import text_of, vector, vector_text
@@ -25,6 +24,8 @@ from lucida.renderer.camera.image_plane import Ray
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.files.schema import Numbers3, StrictTable
 from lucida.renderer.system.errors import LucidaError
+
+from .text import escaped
 
 TOLERANCE = 2e-3  # an answer may be rounded to three digits
 CORRECT = "Correct."

@@ -11,7 +11,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from lucida.app.lecture.text import (
+from lucida.app.ui.explaining.breaking import breakable, broken, narrowed
+
+from .text import (
     Block,
     Code,
     DisplayedFormula,
@@ -23,7 +25,6 @@ from lucida.app.lecture.text import (
     Question,
     Words,
 )
-from lucida.app.ui.explaining.breaking import breakable, broken, narrowed
 
 # Relative to the text's size.
 LEADING = 1.18  # from line to line

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.lecture.session import LectureSession
+from .session import LectureSession
 
 BACK, NEXT = "back", "next"
 END = "End the lecture"

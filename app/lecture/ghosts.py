@@ -9,7 +9,11 @@ import numpy as np
 from lucida.app.instruments.outside import answers
 from lucida.app.instruments.outside.diagram import Item, Role
 from lucida.app.instruments.outside.second_camera import GivenRay
-from lucida.app.lecture.exercises import (
+from lucida.app.state.kept_lecture import Judgement
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+
+from .exercises import (
     RayExercise,
     VectorExercise,
     Wanted,
@@ -17,10 +21,7 @@ from lucida.app.lecture.exercises import (
     is_multiple,
     vectors,
 )
-from lucida.app.lecture.model import Exercise
-from lucida.app.state.kept_lecture import Judgement
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats
+from .model import Exercise
 
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}
 

@@ -5,11 +5,12 @@ The tracer is imported on first use, because it loads the compiler.
 
 from __future__ import annotations
 
-from lucida.app.lecture.hiding import HideExercise, Ids
-from lucida.app.lecture.model import Lecture
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError, errors_as
+
+from .hiding import HideExercise, Ids
+from .model import Lecture
 
 SIZE = (960, 720)  # of the images that answers are tried in
 

@@ -13,7 +13,6 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.lecture.text import escaped
 from lucida.app.state.kept_lecture import Judgement
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.editing.changing import Item, fields_of, set_field
@@ -24,6 +23,8 @@ from lucida.renderer.files.reading import suggestion
 from lucida.renderer.scene.material import vector
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.system.errors import LucidaError
+
+from .text import escaped
 
 Ids = NDArray[np.int32]
 

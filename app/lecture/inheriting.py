@@ -8,10 +8,11 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from lucida.app.lecture.schema import BuildTable, StepTable
-from lucida.app.lecture.text import extended
 from lucida.renderer.files.views import LOOK_AT, looks_at, view_from_table, view_table
 from lucida.renderer.scene.model import View
+
+from .schema import BuildTable, StepTable
+from .text import extended
 
 _BY_BASIS = {"u", "v", "w", "viewport"}  # fields that no camera with a target has
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from lucida.app.lecture.actions import LECTURE
-from lucida.app.lecture.view import LectureView
+from .actions import LECTURE
+from .view import LectureView
 
 
 class LectureInstrument(LectureView):

@@ -6,10 +6,11 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from lucida.app.lecture.reading import BUILTINS
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
 from lucida.app.ui.messages import wrapped
+
+from .reading import BUILTINS
 
 
 def invitation(host: Host) -> Path | None:

@@ -7,12 +7,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from lucida.app.lecture.exercises import AskedExercise
-from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.text import Block
 from lucida.app.state.options import Options
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.system.file_dependencies import Noted
+
+from .exercises import AskedExercise
+from .hiding import HideExercise
+from .text import Block
 
 Exercise = AskedExercise | HideExercise
 

@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from lucida.app.lecture.schema import OldStepTable, StepTable
-from lucida.app.lecture.text import Block, ItemList, parse
+from .schema import OldStepTable, StepTable
+from .text import Block, ItemList, parse
 
 Blocks = tuple[Block, ...]
 FIELDS = ("reveal", "answer", "links", "low", "highlight")

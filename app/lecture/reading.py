@@ -11,21 +11,6 @@ from typing import Any, TypeVar
 import msgspec
 
 from lucida.app.checking.task_file import check_known
-from lucida.app.lecture import text as texts
-from lucida.app.lecture.inheriting import inherited
-from lucida.app.lecture.model import Lecture, Step, Written
-from lucida.app.lecture.old_format import REMEDY, fields_of, kind_of, old_builds
-from lucida.app.lecture.reading_exercises import exercise_of, pixel_of
-from lucida.app.lecture.schema import (
-    DEFAULT_VIEWS,
-    VIEWS,
-    BuildTable,
-    LectureFile,
-    OldStepTable,
-    StepTable,
-)
-from lucida.app.lecture.step_options import files_named, options_from_table, with_files
-from lucida.app.lecture.written import formulas_written, texts_of
 from lucida.app.state.options import Options
 from lucida.app.state.removed import without_removed, without_removed_views
 from lucida.renderer.camera.pixels import Indexing
@@ -40,6 +25,22 @@ from lucida.renderer.scene.limits import TOML_BYTES, TRIANGLES
 from lucida.renderer.scene.model import Mesh, Scene, View
 from lucida.renderer.system.errors import LucidaError, not_together, under
 from lucida.renderer.system.file_dependencies import noting
+
+from . import text as texts
+from .inheriting import inherited
+from .model import Lecture, Step, Written
+from .old_format import REMEDY, fields_of, kind_of, old_builds
+from .reading_exercises import exercise_of, pixel_of
+from .schema import (
+    DEFAULT_VIEWS,
+    VIEWS,
+    BuildTable,
+    LectureFile,
+    OldStepTable,
+    StepTable,
+)
+from .step_options import files_named, options_from_table, with_files
+from .written import formulas_written, texts_of
 
 _FOLDER = Path(__file__).parent / "lectures"
 BUILTIN = _FOLDER / "images-rays-cameras.toml"

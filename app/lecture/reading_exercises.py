@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from lucida.app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
-from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.inheriting import changed_view
-from lucida.app.lecture.model import Exercise
-from lucida.app.lecture.schema import AnyExercise, HideTable, RayTable
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.files.tables import to_struct
 from lucida.renderer.files.views import view_from_table
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.system.errors import LucidaError, under
+
+from .exercises import ChoiceExercise, RayExercise, VectorExercise
+from .hiding import HideExercise
+from .inheriting import changed_view
+from .model import Exercise
+from .schema import AnyExercise, HideTable, RayTable
 
 ANSWERS = 8  # of an exercise: vectors that are asked for, options
 MISTAKES = 32  # that are known of an answer

@@ -9,8 +9,9 @@ from typing import Any, Literal
 
 from msgspec import field
 
-from lucida.app.lecture.exercises import TOLERANCE, ChoiceExercise, VectorExercise
 from lucida.renderer.files.schema import Numbers3, StrictTable
+
+from .exercises import TOLERANCE, ChoiceExercise, VectorExercise
 
 # What a step can show. A view of the window has the name with a capital.
 VIEWS = (

@@ -8,15 +8,16 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from lucida.app.lecture.model import Lecture, Step
-from lucida.app.lecture.reading import BUILTIN, load_lecture
-from lucida.app.lecture.typesetting import first_mistake
 from lucida.app.state.app_state import AppState
 from lucida.app.state.kept_lecture import Answers, KeptLecture
 from lucida.app.state.paths import restored, stored
 from lucida.app.ui.watching import FilesWatch, fingerprint
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.file_dependencies import stamp
+
+from .model import Lecture, Step
+from .reading import BUILTIN, load_lecture
+from .typesetting import first_mistake
 
 
 class LectureSession:

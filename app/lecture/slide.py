@@ -8,12 +8,13 @@ from collections.abc import Iterable
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.instruments.outside.growing import lit_in
-from lucida.app.lecture.flow import Backdrop, Laid, Piece, PieceSize, Placed, lay
-from lucida.app.lecture.text import Block
 from lucida.app.ui import theme
 from lucida.app.ui.formula import inline_math, lit, vector_colors
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.theme import Fonts, framebuffer_scale
+
+from .flow import Backdrop, Laid, Piece, PieceSize, Placed, lay
+from .text import Block
 
 ASCENT = 0.78  # of the line's height, in all our fonts
 # Relative to the window's type size: a step's title, and its text, as large as fits.

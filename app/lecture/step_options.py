@@ -13,8 +13,6 @@ from typing import Any, get_args, get_type_hints
 
 import msgspec
 
-from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.model import Step
 from lucida.app.state.app_state import AppState, is_orthonormal
 from lucida.app.state.bounds import check, files_of
 from lucida.app.state.options import Options
@@ -24,6 +22,9 @@ from lucida.renderer.files.reading import suggestion
 from lucida.renderer.files.tables import to_struct
 from lucida.renderer.files.views import view_from_table
 from lucida.renderer.system.errors import LucidaError, under
+
+from .hiding import HideExercise
+from .model import Step
 
 _types = lru_cache(get_type_hints)  # it is slow
 

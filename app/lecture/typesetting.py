@@ -12,9 +12,10 @@ from collections.abc import Iterable
 import numpy as np
 from imgui_bundle import ImVec4, imgui_microtex
 
-from lucida.app.lecture.model import Written
 from lucida.app.ui.formula import available
 from lucida.renderer.system.errors import LucidaError, one_line
+
+from .model import Written
 
 _SIZE_PX = 24.0
 _WHITE = ImVec4(1, 1, 1, 1)

@@ -15,16 +15,6 @@ import moderngl
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.lecture.answer_log import AnswerLog
-from lucida.app.lecture.column import Column
-from lucida.app.lecture.controls import Controls
-from lucida.app.lecture.drawn_answer import DrawnAnswer
-from lucida.app.lecture.foot import BACK, END, NEXT
-from lucida.app.lecture.invitation import invitation
-from lucida.app.lecture.model import Lecture
-from lucida.app.lecture.reading import BUILTIN, load_lecture
-from lucida.app.lecture.session import LectureReread, LectureSession, reread
-from lucida.app.lecture.step_options import own, state_of
 from lucida.app.state.app_state import AppState
 from lucida.app.state.kept_lecture import KeptLecture
 from lucida.app.state.session import source_of
@@ -32,6 +22,17 @@ from lucida.app.ui import layout
 from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
+
+from .answer_log import AnswerLog
+from .column import Column
+from .controls import Controls
+from .drawn_answer import DrawnAnswer
+from .foot import BACK, END, NEXT
+from .invitation import invitation
+from .model import Lecture
+from .reading import BUILTIN, load_lecture
+from .session import LectureReread, LectureSession, reread
+from .step_options import own, state_of
 
 LECTURE = "Lecture"
 # For a text over a picture: its width relative to the window's, and its background's opacity.

@@ -8,12 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lucida.app.images.progressive_ray import RayImage
-from lucida.app.lecture.hidden_pixels import ids_seen
-from lucida.app.lecture.hiding import HideExercise
 from lucida.app.state.kept_lecture import Judgement
 from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
+
+from .hidden_pixels import ids_seen
+from .hiding import HideExercise
 
 Counted = tuple[HideExercise, Camera, tuple[int, int]]  # the image whose pixels were counted
 

@@ -8,9 +8,10 @@ from collections.abc import Iterator
 from itertools import accumulate
 from typing import Any
 
-from lucida.app.lecture import text as texts
-from lucida.app.lecture.model import Written
 from lucida.renderer.files.places import Places
+
+from . import text as texts
+from .model import Written
 
 TEXTS = ("text", "instead", "notes", "question", "feedback", "answer")  # fields of Markdown
 _SOLID = re.compile(r"[^\s>]+")

@@ -9,11 +9,12 @@ from __future__ import annotations
 from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 
-from lucida.app.state.bounds import OptionPart, clamped
-from lucida.app.state.options import Options
-from lucida.app.state.options.shared import ImageOptions, Pixel, Preferences
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.model import Scene, View
+
+from .bounds import OptionPart, clamped
+from .options import Options
+from .options.shared import ImageOptions, Pixel, Preferences
 
 MOST_UNDO_STEPS = 500
 ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from lucida.app.state.app_state import AppState
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.model import Scene
+
+from .app_state import AppState
 
 SIDES = ("left", "right", "bottom", "top")
 

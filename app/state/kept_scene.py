@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from lucida.app.state.paths import restored
 from lucida.renderer.editing.changing import as_tables, origin_of
 from lucida.renderer.editing.documents import is_unsaved
 from lucida.renderer.files.saving import relocated
@@ -13,6 +12,8 @@ from lucida.renderer.files.tables import VERSION
 from lucida.renderer.files.toml_writing import toml_text
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
+
+from .paths import restored
 
 
 def unsaved_text(scene: Scene) -> str:

@@ -10,17 +10,18 @@ from dataclasses import dataclass, field, replace
 
 import msgspec
 
-from lucida.app.state.app_state import AppState
-from lucida.app.state.bounds import check
-from lucida.app.state.kept_lecture import KeptLecture
-from lucida.app.state.kept_scene import text_of_older, unsaved_text
-from lucida.app.state.options import Options
-from lucida.app.state.paths import restored, stored
-from lucida.app.state.removed import without_removed
 from lucida.renderer.files import BUILTIN_SCENES
 from lucida.renderer.files.tables import check_integers
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.errors import LucidaError
+
+from .app_state import AppState
+from .bounds import check
+from .kept_lecture import KeptLecture
+from .kept_scene import text_of_older, unsaved_text
+from .options import Options
+from .paths import restored, stored
+from .removed import without_removed
 
 VERSION = 1  # of the format: the key `lucida_session`
 LARGEST_BYTES = 20 << 20  # an edited scene is in it

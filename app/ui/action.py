@@ -11,8 +11,9 @@ from imgui_bundle import imgui
 
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options import Options
-from lucida.app.ui import theme
-from lucida.app.ui.host import Host
+
+from . import theme
+from .host import Host
 
 Key = imgui.Key
 # The keys of a sign. Plus is typed with Shift on many keyboards.

@@ -9,9 +9,10 @@ from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
 from lucida.app.state.options.shared import Pixel
-from lucida.app.ui import theme
-from lucida.app.ui.areas import focused_steps, pixel_from, press_point
 from lucida.renderer.images.display import to_srgb8
+
+from . import theme
+from .areas import focused_steps, pixel_from, press_point
 
 CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
 LARGEST_PX = 256  # a picture's width, where that leaves pixels LEAST_CELL texels

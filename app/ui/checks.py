@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.ui import theme
+from . import theme
 
 # In parts of their half size.
 CHECK = (((-1.0, 0.1), (-0.3, 0.8)), ((-0.3, 0.8), (1.0, -0.8)))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.ui import theme
-from lucida.app.ui.lettering import lettering
-from lucida.app.ui.theme import Fonts
+from . import theme
+from .lettering import lettering
+from .theme import Fonts
 
 TICK = "`"
 

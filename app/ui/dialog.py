@@ -10,9 +10,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from lucida.app.ui.entry_box import EntryBox
 from lucida.renderer.system.atomic import check_writable
 from lucida.renderer.system.errors import LucidaError, one_line
+
+from .entry_box import EntryBox
 
 TITLE = "###file dialog"
 PATH_EM = 30.0

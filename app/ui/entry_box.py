@@ -7,8 +7,9 @@ from typing import Protocol
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.ui import theme
 from lucida.renderer.system.errors import LucidaError
+
+from . import theme
 
 TYPED = int(imgui.InputTextFlags_.enter_returns_true | imgui.InputTextFlags_.auto_select_all)
 

@@ -10,9 +10,10 @@ import moderngl
 from imgui_bundle import imgui
 
 from lucida.app.images.textures import FAILURES
-from lucida.app.ui.host import Host
-from lucida.app.ui.instrument import Instrument
-from lucida.app.ui.messages import failure_note
+
+from .host import Host
+from .instrument import Instrument
+from .messages import failure_note
 
 
 class FailedViews:

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.ui import pending, theme, typed
-from lucida.app.ui.explaining import notation
-from lucida.app.ui.rows import tip
+from . import pending, theme, typed
+from .explaining import notation
+from .rows import tip
 
 NOISE = 1e-12  # a smaller number is what rounding has left of 0
 LEAST = 1e-2  # where dragging a logarithmic value ends, in parts of the scale's low end

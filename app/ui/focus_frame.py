@@ -9,7 +9,7 @@ from __future__ import annotations
 from imgui_bundle import ImVec2, imgui
 from imgui_bundle.imgui.internal import ImRect
 
-from lucida.app.ui import theme
+from . import theme
 
 LINE, CASING = 2.5, 6.5  # widths at 100 %
 

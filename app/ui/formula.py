@@ -14,11 +14,11 @@ from pathlib import Path
 import imgui_bundle
 from imgui_bundle import ImVec2, ImVec4, imgui, imgui_microtex
 
-from lucida.app.ui import theme
-from lucida.app.ui.contrast import LEGIBLE, Rgb
-from lucida.app.ui.explaining.breaking import breakable
-from lucida.app.ui.explaining.plain import plain_math
-from lucida.app.ui.theme import framebuffer_scale
+from . import theme
+from .contrast import LEGIBLE, Rgb
+from .explaining.breaking import breakable
+from .explaining.plain import plain_math
+from .theme import framebuffer_scale
 
 ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
 MOST_EXTENTS = 500

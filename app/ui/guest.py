@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2
 from lucida.renderer.camera.camera import Camera
 
 if TYPE_CHECKING:
-    from lucida.app.ui.host import Host
+    from .host import Host
 
 
 @dataclass(frozen=True)

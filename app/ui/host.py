@@ -10,12 +10,13 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import OptionPart
 from lucida.app.state.options import Options
 from lucida.app.state.options.shared import Pixel
-from lucida.app.ui.entry_box import Box
-from lucida.app.ui.recent import RecentFiles
-from lucida.app.ui.theme import Fonts
-from lucida.app.ui.toasts import Toasts
 from lucida.renderer.scene import View as SceneView
 from lucida.renderer.scene.focus import Focus
+
+from .entry_box import Box
+from .recent import RecentFiles
+from .theme import Fonts
+from .toasts import Toasts
 
 T = TypeVar("T")
 

@@ -13,9 +13,10 @@ import moderngl
 from imgui_bundle import ImVec2
 
 from lucida.app.state.app_state import AppState
-from lucida.app.ui.action import Action
-from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
+
+from .action import Action
+from .host import Host
 
 AnInstrument = TypeVar("AnInstrument", bound="Instrument")
 

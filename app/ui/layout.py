@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from imgui_bundle import hello_imgui, imgui
 
-from lucida.app.ui.instrument import Instrument
+from .instrument import Instrument
 
 MAIN = "MainDockSpace"  # HelloImGui's own name for the rest
 CAMERA_SPACE = "CameraSpace"

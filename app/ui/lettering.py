@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from imgui_bundle import ImVec4, imgui
 
-from lucida.app.ui import theme
+from . import theme
 
 
 @contextlib.contextmanager

@@ -10,8 +10,9 @@ from collections.abc import Iterator, Sequence
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.ui import theme
 from lucida.renderer.system.errors import describe
+
+from . import theme
 
 SHOWN_AFTER_S = 0.4  # quick work has no progress bar
 LONG = 40  # letters of an answer

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.ui import theme
-from lucida.app.ui.messages import overlay, wrapped
+from . import theme
+from .messages import overlay, wrapped
 
 WIDTH_EM = 19.0
 _place: list[float] = []  # upper edge of the wrong field, on the screen

@@ -9,12 +9,13 @@ import moderngl
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.state.options.shared import Pixel
-from lucida.app.ui import theme
-from lucida.app.ui.areas import press_area
-from lucida.app.ui.canvas import pressed_pixel, walked_pixel
-from lucida.app.ui.lettering import fitting_words, lettering
-from lucida.app.ui.rows import tip
-from lucida.app.ui.theme import Fonts, framebuffer_scale
+
+from . import theme
+from .areas import press_area
+from .canvas import pressed_pixel, walked_pixel
+from .lettering import fitting_words, lettering
+from .rows import tip
+from .theme import Fonts, framebuffer_scale
 
 HEADING_EM = 1.3
 GAP_EM = 0.7

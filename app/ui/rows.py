@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec4, imgui
 
-from lucida.app.ui import theme
+from . import theme
 
 LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # next to three fields, next to one
 HALF_LABEL_EM = 4.0  # in a line of two fields

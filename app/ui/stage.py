@@ -9,10 +9,11 @@ from __future__ import annotations
 from imgui_bundle import imgui
 
 from lucida.app.state.session import Arrangement
-from lucida.app.ui import layout
-from lucida.app.ui.failing import FailedViews
-from lucida.app.ui.host import Host
-from lucida.app.ui.instrument import Instrument
+
+from . import layout
+from .failing import FailedViews
+from .host import Host
+from .instrument import Instrument
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom, ImGui's pixels
 LAID_OUT = 3  # frames that it takes until every window has its place

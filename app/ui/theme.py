@@ -15,8 +15,9 @@ from typing import Any
 from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 from lucida.app.state.options.shared import Preferences
-from lucida.app.ui.contrast import ENHANCED, LEGIBLE, SEEN, Rgb, legible_on
-from lucida.app.ui.palettes import (
+
+from .contrast import ENHANCED, LEGIBLE, SEEN, Rgb, legible_on
+from .palettes import (
     CONTRAST,
     DARK,
     LIGHT,
@@ -24,7 +25,7 @@ from lucida.app.ui.palettes import (
     PRESENTED_LIGHT,
     Palette,
 )
-from lucida.app.ui.palettes import rgb as rgb  # every module that draws has it as theme.rgb
+from .palettes import rgb as rgb  # every module that draws has it as theme.rgb
 
 TEXT_PX = 16.0
 ATLAS_PX = 1024  # the side of the letters' texture, at least

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from lucida.app.ui import theme
-from lucida.app.ui.messages import box_width, overlay, wrapped
 from lucida.renderer.system.errors import one_line
+
+from . import theme
+from .messages import box_width, overlay, wrapped
 
 SHOWN_S = 6.0
 MOST = 4

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from lucida.app.ui import theme
-from lucida.app.ui.explaining.arithmetic import number
 from lucida.renderer.system.errors import LucidaError
+
+from . import theme
+from .explaining.arithmetic import number
 
 
 @dataclass

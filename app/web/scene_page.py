@@ -7,17 +7,18 @@ from pathlib import Path
 from typing import Any
 
 from lucida.app.instruments.outside.extent import arrow_length
-from lucida.app.web import ENDINGS
-from lucida.app.web.document import document
-from lucida.app.web.formulas import templates
-from lucida.app.web.glsl import shaders
-from lucida.app.web.packing import packed
 from lucida.renderer.files.export import check_export_path
 from lucida.renderer.files.views import view_table
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.focus import scene_focus
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.system.atomic import atomic_write
+
+from . import ENDINGS
+from .document import document
+from .formulas import templates
+from .glsl import shaders
+from .packing import packed
 
 SHOWS = ("raster", "ray", "wipe", "difference", "outside", "probe", "controls")
 

@@ -10,8 +10,9 @@ from imgui_bundle import imgui
 from lucida.app.lecture.instrument import LectureInstrument
 from lucida.app.ui.action import chords_of
 from lucida.app.ui.host import Host
-from lucida.app.window.actions import BOOKMARKS, EFFECTS, FILE, HELP, LOOK, QUIT, UNDO
-from lucida.app.window.instruments import INSTRUMENTS
+
+from .actions import BOOKMARKS, EFFECTS, FILE, HELP, LOOK, QUIT, UNDO
+from .instruments import INSTRUMENTS
 
 # The last one is at the right end of the bar.
 MENUS = (

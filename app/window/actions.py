@@ -12,11 +12,12 @@ from lucida.app.state.bounds import range_of
 from lucida.app.state.options.shared import Preferences, Theme
 from lucida.app.ui import layout
 from lucida.app.ui.action import Action, changing, choosing
-from lucida.app.window import bookmarks
-from lucida.app.window.documents import ABOUT, FIRST, GETTING_STARTED
-from lucida.app.window.exporting import ask_export
-from lucida.app.window.figure_box import ask_figure
-from lucida.app.window.platform import toggle_full_screen
+
+from . import bookmarks
+from .documents import ABOUT, FIRST, GETTING_STARTED
+from .exporting import ask_export
+from .figure_box import ask_figure
+from .platform import toggle_full_screen
 
 SMALLEST_SCALE, LARGEST_SCALE = range_of(Preferences, "font_scale")
 FONT_SCALES = (SMALLEST_SCALE, 0.9, 1.0, 1.25, 1.5, 1.75, 2.0, 2.5, LARGEST_SCALE)

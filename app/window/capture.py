@@ -9,9 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from lucida.app.ui.surface import Target
-from lucida.app.window.files import Files
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
+
+from .files import Files
 
 Rect = tuple[float, float, float, float]  # left, top, right, bottom
 

@@ -11,8 +11,9 @@ from lucida.app.lecture.movement import Movement
 from lucida.app.state.app_state import AppState, History
 from lucida.app.state.bounds import OptionPart
 from lucida.app.state.options import Options
-from lucida.app.window.playing import Playing
 from lucida.renderer.scene.focus import scene_focus
+
+from .playing import Playing
 
 
 class Edits:

@@ -15,12 +15,13 @@ from lucida.app.state.bounds import range_of
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
 from lucida.app.ui.uploads import Uploads
-from lucida.app.window.figure_choice import ENDINGS, FigureChoice, Ground, What, check_ending
-from lucida.app.window.figures import encoder, figure_of
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.atomic import atomic_write, file_stem
 from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import same
+
+from .figure_choice import ENDINGS, FigureChoice, Ground, What, check_ending
+from .figures import encoder, figure_of
 
 TITLE, PREVIEW_EM = "Export figure", 22.0
 GRAY = 128  # under what is transparent

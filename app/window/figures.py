@@ -34,12 +34,13 @@ from lucida.app.ui import formula, theme
 from lucida.app.ui.explaining.plain import plain_math
 from lucida.app.ui.host import Host
 from lucida.app.web import pdf
-from lucida.app.window.figure_choice import ENDINGS, FigureChoice, What
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import picture
 from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.system.errors import LucidaError
+
+from .figure_choice import ENDINGS, FigureChoice, What
 
 GAP = 0.02  # between the pair, in parts of the width
 FORMULA_PX = 24.0  # of the probe's formulas

@@ -20,8 +20,15 @@ from lucida.app.ui.background import Background
 from lucida.app.ui.dialog import FileDialog, FileQuestion
 from lucida.app.ui.recent import RecentFiles
 from lucida.app.ui.watching import SceneWatch
-from lucida.app.window.kinds import CODE_ENDING, TOML_ENDING
-from lucida.app.window.opening import (
+from lucida.renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
+from lucida.renderer.files.outside import LISTED, OutsideError
+from lucida.renderer.files.reading import MODEL_ENDINGS
+from lucida.renderer.scene import Scene, View
+from lucida.renderer.system.cancelling import Cancellation, CancelledError, cancelled_by
+from lucida.renderer.system.errors import describe, one_line
+
+from .kinds import CODE_ENDING, TOML_ENDING
+from .opening import (
     Opened,
     OpenedLecture,
     OpenedScene,
@@ -30,12 +37,6 @@ from lucida.app.window.opening import (
     open_sources,
     reread,
 )
-from lucida.renderer.files import SCENE_ENDINGS, SCENE_NAMES, save_view
-from lucida.renderer.files.outside import LISTED, OutsideError
-from lucida.renderer.files.reading import MODEL_ENDINGS
-from lucida.renderer.scene import Scene, View
-from lucida.renderer.system.cancelling import Cancellation, CancelledError, cancelled_by
-from lucida.renderer.system.errors import describe, one_line
 
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
 

@@ -16,16 +16,17 @@ from lucida.app.state.options.shared import Pixel
 from lucida.app.state.paths import stored
 from lucida.app.ui import layout
 from lucida.app.ui.surface import Target
-from lucida.app.window.capture import free_path
-from lucida.app.window.figure_choice import FigureChoice
-from lucida.app.window.figures import encoder
-from lucida.app.window.platform import Platform, start_platform
-from lucida.app.window.start import begin_scene, begin_session, kept
-from lucida.app.window.viewer import WindowRun
 from lucida.renderer.files import EMPTY_SCENE
 from lucida.renderer.scene import Scene
 from lucida.renderer.scene import View as SceneView
 from lucida.renderer.system.atomic import check_writable
+
+from .capture import free_path
+from .figure_choice import FigureChoice
+from .figures import encoder
+from .platform import Platform, start_platform
+from .start import begin_scene, begin_session, kept
+from .viewer import WindowRun
 
 DEFAULT_PICTURE = Path("lucida.png")
 LAID_OUT = 4  # frames until views have their places

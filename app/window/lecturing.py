@@ -18,15 +18,16 @@ from lucida.app.lecture.model import Lecture, Step
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Theme
 from lucida.app.ui.surface import Target
-from lucida.app.window.capture import cut
-from lucida.app.window.launch import start_drawing
-from lucida.app.window.main_window import MainWindow
-from lucida.app.window.platform import start_platform
-from lucida.app.window.start import Start, begin_lecture, begin_scene, first_state
-from lucida.app.window.viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
 from lucida.renderer.files.outside import OutsideError
 from lucida.renderer.system.atomic import check_writable
 from lucida.renderer.system.errors import LucidaError
+
+from .capture import cut
+from .launch import start_drawing
+from .main_window import MainWindow
+from .platform import start_platform
+from .start import Start, begin_lecture, begin_scene, first_state
+from .viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
 
 if TYPE_CHECKING:
     from lucida.app.web.lecture.page import Still

@@ -25,21 +25,22 @@ from lucida.app.ui.background import Background
 from lucida.app.ui.entry_box import Box
 from lucida.app.ui.host import T
 from lucida.app.ui.instrument import Instrument
-from lucida.app.window.action_table import run_shortcuts
-from lucida.app.window.edits import Edits
-from lucida.app.window.files import Files
-from lucida.app.window.instruments import make_views
-from lucida.app.window.menu_keys import MenuKeys
-from lucida.app.window.menus import menu_bar, menu_button
-from lucida.app.window.motions import Motions
-from lucida.app.window.platform import keep_open, on_drop, set_title
-from lucida.app.window.scene_saving import SceneSaving, is_marked, title
-from lucida.app.window.session_store import Keeper
-from lucida.app.window.shell import Shell
-from lucida.app.window.status import Status, is_good_news, status_line, told
-from lucida.app.window.taking import take_opened
 from lucida.renderer.scene.focus import Focus, scene_focus
 from lucida.renderer.system.memo import Memo
+
+from .action_table import run_shortcuts
+from .edits import Edits
+from .files import Files
+from .instruments import make_views
+from .menu_keys import MenuKeys
+from .menus import menu_bar, menu_button
+from .motions import Motions
+from .platform import keep_open, on_drop, set_title
+from .scene_saving import SceneSaving, is_marked, title
+from .session_store import Keeper
+from .shell import Shell
+from .status import Status, is_good_news, status_line, told
+from .taking import take_opened
 
 
 class MainWindow(Edits):

@@ -16,11 +16,12 @@ from lucida.app.ui import layout, theme
 from lucida.app.ui.action import draw_entry
 from lucida.app.ui.host import Host
 from lucida.app.ui.stage import Stage
-from lucida.app.window import bookmarks
-from lucida.app.window.action_table import ACTIONS, MENUS
-from lucida.app.window.actions import FORGET
 from lucida.renderer.files import SCENE_NAMES
 from lucida.renderer.system.errors import one_line
+
+from . import bookmarks
+from .action_table import ACTIONS, MENUS
+from .actions import FORGET
 
 HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0

@@ -12,9 +12,10 @@ from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
-from lucida.app.window.edits import Edits
 from lucida.renderer.scene.focus import object_corners
 from lucida.renderer.system.errors import LucidaError
+
+from .edits import Edits
 
 
 class Motions:

@@ -16,13 +16,14 @@ from lucida.app.instruments.poses.model import PoseSet
 from lucida.app.instruments.poses.reading import open_cameras
 from lucida.app.lecture.model import Lecture
 from lucida.app.lecture.reading import load_lecture
-from lucida.app.window.kinds import found_code, kind_of
 from lucida.renderer.files import load_scene, load_view
 from lucida.renderer.files.outside import OutsideError, kept_inside
 from lucida.renderer.raster import Prepared, prepare
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import LucidaError, describe
+
+from .kinds import found_code, kind_of
 
 T = TypeVar("T")
 Use = Literal["open", "first", "newer", "add"]

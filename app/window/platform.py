@@ -23,9 +23,10 @@ from imgui_bundle import ImVec2, imgui  # before glfw, so that both use the same
 import glfw
 import moderngl
 
-from lucida.app.window.key_names import give_key
-from lucida.app.window.keys import KeyFrames
 from lucida.renderer.system.errors import LucidaError, one_line
+
+from .key_names import give_key
+from .keys import KeyFrames
 
 REQUIRED = (3, 3)
 DEFAULT_SIZE = (1280, 720)

@@ -14,7 +14,6 @@ from pathlib import Path
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
-from lucida.app.window.files import Files
 from lucida.renderer.editing.documents import (
     ChangedOnDiskError,
     file_of,
@@ -25,6 +24,8 @@ from lucida.renderer.editing.documents import (
 from lucida.renderer.files.rewriting import CommentsLostError
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.errors import describe, one_line
+
+from .files import Files
 
 OVERWRITE, SAVE, DISCARD = "Overwrite it", "Save", "Quit without saving"
 SAVE_AS = "Save as a new file..."

@@ -23,14 +23,15 @@ from lucida.app.ui.stage import Rect, Stage
 from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
-from lucida.app.window.capture import Captures
-from lucida.app.window.documents import Documents
-from lucida.app.window.files import Files
-from lucida.app.window.hints import Hints
-from lucida.app.window.proportion import Proportion
-from lucida.app.window.session_store import Keeper
-from lucida.app.window.shortcut_sheet import help_sheet
 from lucida.renderer.system.errors import describe
+
+from .capture import Captures
+from .documents import Documents
+from .files import Files
+from .hints import Hints
+from .proportion import Proportion
+from .session_store import Keeper
+from .shortcut_sheet import help_sheet
 
 REDRAWN = 8  # frames after a change of the bars or of the views' places
 

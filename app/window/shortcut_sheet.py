@@ -14,8 +14,9 @@ from imgui_bundle import imgui
 from lucida.app.ui import theme
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
-from lucida.app.window.action_table import ACTIONS, MOUSE
-from lucida.app.window.instruments import INSTRUMENTS
+
+from .action_table import ACTIONS, MOUSE
+from .instruments import INSTRUMENTS
 
 COLUMN_EM = 24.0
 MOST_COLUMNS = 4

@@ -21,14 +21,15 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.kept_lecture import KeptLecture
 from lucida.app.state.options import Options
 from lucida.app.state.session import Session
-from lucida.app.window.capture import free_path
-from lucida.app.window.opening import Opened, first_scene
-from lucida.app.window.session_store import Keeper, SessionFile, take_place
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.files.models.models import ModelFile, read_by, read_model
 from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError, describe
+
+from .capture import free_path
+from .opening import Opened, first_scene
+from .session_store import Keeper, SessionFile, take_place
 
 ChangeView = Callable[[View], View]
 LARGE_BYTES = 1 << 20  # a model of this size delays the first frame

@@ -17,8 +17,15 @@ from lucida.app.instruments.poses.view import PosesView
 from lucida.app.lecture.view import LectureView
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.host import Host
-from lucida.app.window.files import Files
-from lucida.app.window.opening import (
+from lucida.renderer.editing.documents import are_versions, is_unsaved
+from lucida.renderer.editing.objects import add, model_table
+from lucida.renderer.files import EMPTY_SCENE, SCENE_NAMES, load_scene
+from lucida.renderer.files.models.models import ModelFile, read_by
+from lucida.renderer.scene import Scene, View
+from lucida.renderer.system.errors import LucidaError, one_line
+
+from .files import Files
+from .opening import (
     OpenedCode,
     OpenedLecture,
     OpenedPhotograph,
@@ -26,12 +33,6 @@ from lucida.app.window.opening import (
     OpenedScene,
     OpenedView,
 )
-from lucida.renderer.editing.documents import are_versions, is_unsaved
-from lucida.renderer.editing.objects import add, model_table
-from lucida.renderer.files import EMPTY_SCENE, SCENE_NAMES, load_scene
-from lucida.renderer.files.models.models import ModelFile, read_by
-from lucida.renderer.scene import Scene, View
-from lucida.renderer.system.errors import LucidaError, one_line
 
 READ_AGAIN = "Read it again"
 ADD, OPEN = "Add it to the scene", "Open it instead"

@@ -25,11 +25,17 @@ from lucida.app.ui.focus_frame import FocusFrame
 from lucida.app.ui.focusing import Focusing
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.surface import Target
-from lucida.app.window.canvas import WindowCanvas
-from lucida.app.window.keys import KeyFrames
-from lucida.app.window.main_window import MainWindow
-from lucida.app.window.memory import FreedMemory
-from lucida.app.window.platform import (
+from lucida.renderer.files import SCENE_NAMES
+from lucida.renderer.images.png import write_png
+from lucida.renderer.system import compile_note
+from lucida.renderer.system.atomic import atomic_write
+from lucida.renderer.system.errors import LucidaError
+
+from .canvas import WindowCanvas
+from .keys import KeyFrames
+from .main_window import MainWindow
+from .memory import FreedMemory
+from .platform import (
     Platform,
     begin_letters,
     create_context,
@@ -40,15 +46,10 @@ from lucida.app.window.platform import (
     show_window,
     take_keys,
 )
-from lucida.app.window.scene_saving import title
-from lucida.app.window.session_store import settings_folder
-from lucida.app.window.signals import ended_by_signals
-from lucida.app.window.start import Start
-from lucida.renderer.files import SCENE_NAMES
-from lucida.renderer.images.png import write_png
-from lucida.renderer.system import compile_note
-from lucida.renderer.system.atomic import atomic_write
-from lucida.renderer.system.errors import LucidaError
+from .scene_saving import title
+from .session_store import settings_folder
+from .signals import ended_by_signals
+from .start import Start
 
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
 PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the comparison

@@ -7,8 +7,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from lucida.renderer.camera.checks import SMALLEST, Floats, Vector, listed, numbers, three
 from lucida.renderer.system.errors import LucidaError
+
+from .checks import SMALLEST, Floats, Vector, listed, numbers, three
 
 Basis = tuple[Vector, Vector, Vector]
 

@@ -15,9 +15,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pyrr import matrix44
 
-from lucida.renderer.camera import image_plane
-from lucida.renderer.camera.basis import inverse, looking_at, orthonormal
-from lucida.renderer.camera.checks import (
+from lucida.renderer.images.frame import DISPLAY, check_size
+from lucida.renderer.system.errors import LucidaError, not_together
+
+from . import image_plane
+from .basis import inverse, looking_at, orthonormal
+from .checks import (
     Floats,
     Vector,
     check_basis,
@@ -32,17 +35,15 @@ from lucida.renderer.camera.checks import (
     positive,
     volume,
 )
-from lucida.renderer.camera.image_plane import WHOLE, Part, Projected, Ray, Size
-from lucida.renderer.camera.intrinsics import (
+from .image_plane import WHOLE, Part, Projected, Ray, Size
+from .intrinsics import (
     Intrinsics,
     as_camera_from_world,
     camera_fields,
     check_for_lens,
     decomposed,
 )
-from lucida.renderer.camera.lenses import Lens, check_lens
-from lucida.renderer.images.frame import DISPLAY, check_size
-from lucida.renderer.system.errors import LucidaError, not_together
+from .lenses import Lens, check_lens
 
 # The near clip of an object that extends behind the eye, relative to its farthest t. GL clips in
 # float32: with a nearer plane, the rest of a long triangle might be behind the eye.

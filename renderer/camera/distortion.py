@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.checks import Floats
+from .checks import Floats
 
 if TYPE_CHECKING:
     from numpy.polynomial import Polynomial

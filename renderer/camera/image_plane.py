@@ -12,9 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.checks import Floats, arrays_text
-from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.camera.pixels import Pixel
+from .checks import Floats, arrays_text
+from .lenses import Lens
+from .pixels import Pixel
 
 Size = tuple[int, int]
 Part = tuple[slice, slice]  # rows, columns

@@ -14,8 +14,9 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.checks import LARGEST, Floats, listed
 from lucida.renderer.system.errors import LucidaError
+
+from .checks import LARGEST, Floats, listed
 
 PixelOrigin = Literal["center", "corner"]
 Axes = Literal["opencv", "opengl"]

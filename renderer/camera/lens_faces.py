@@ -15,10 +15,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats
-from lucida.renderer.camera.image_plane import LARGEST_KEPT, Size
-from lucida.renderer.camera.lenses import Lens
+from .camera import Camera
+from .checks import Floats
+from .image_plane import LARGEST_KEPT, Size
+from .lenses import Lens
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
 MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces

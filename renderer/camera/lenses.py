@@ -19,9 +19,10 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.renderer.camera.checks import Floats, number
-from lucida.renderer.camera.distortion import FARTHEST, Distortion, Point, first_fold
 from lucida.renderer.system.errors import LucidaError
+
+from .checks import Floats, number
+from .distortion import FARTHEST, Distortion, Point, first_fold
 
 # The coefficients of each model. Those that are not given are 0. r8 is a fourth radial one, of r^8,
 # which Metashape and nerfstudio call k4.

@@ -15,9 +15,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import LARGEST, Vector
 from lucida.renderer.system.errors import LucidaError
+
+from .camera import Camera
+from .checks import LARGEST, Vector
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float]

@@ -19,14 +19,6 @@ from numpy.typing import NDArray
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import ENLARGEMENT, Indexing, Pixel
-from lucida.renderer.compare.why_black import hits_nothing, why_nothing_is_hit
-from lucida.renderer.compare.why_different import (
-    CAUSES,
-    DEPTH_RELATIVE,
-    NORMAL,
-    Differing,
-    explained,
-)
 from lucida.renderer.images.difference import (
     CAUSE_COLORS,
     SHADING_COLOR,
@@ -41,6 +33,15 @@ from lucida.renderer.images.shared_numbers import MUTED, SRGB_SLOPE
 from lucida.renderer.scene.flat import FlatScene, flatten
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.scene.precision import check_precision
+
+from .why_black import hits_nothing, why_nothing_is_hit
+from .why_different import (
+    CAUSES,
+    DEPTH_RELATIVE,
+    NORMAL,
+    Differing,
+    explained,
+)
 
 COLOR = 2 / 255  # after the display transform
 

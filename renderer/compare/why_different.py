@@ -27,7 +27,10 @@ from numpy.typing import NDArray
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.lens_faces import looked_up_faces
-from lucida.renderer.compare.seen_surfaces import (
+from lucida.renderer.images.frame import Frame
+from lucida.renderer.scene.flat import FlatScene
+
+from .seen_surfaces import (
     TOLERANCE_PX,
     Bools,
     Numbers,
@@ -38,8 +41,6 @@ from lucida.renderer.compare.seen_surfaces import (
     quiet,
     slope_of,
 )
-from lucida.renderer.images.frame import Frame
-from lucida.renderer.scene.flat import FlatScene
 
 CAUSES = ("edge", "pattern", "clip", "lookup")
 HALF_TEXEL_PX = 0.5**0.5 + TOLERANCE_PX  # from a texel's middle to its corner

@@ -10,7 +10,7 @@
 A scene is an immutable value: edits return a new one, and undo keeps the old one.
 """
 
-from lucida.renderer.editing.changing import (
+from .changing import (
     Item,
     as_tables,
     fields_of,
@@ -21,16 +21,16 @@ from lucida.renderer.editing.changing import (
     set_scene_field,
     table_of,
 )
-from lucida.renderer.editing.documents import (
+from .documents import (
     ChangedOnDiskError,
     file_of,
     is_unsaved,
     save,
     suggested_file,
 )
-from lucida.renderer.editing.materials import set_material
-from lucida.renderer.editing.moving import bounds_of, shift
-from lucida.renderer.editing.objects import (
+from .materials import set_material
+from .moving import bounds_of, shift
+from .objects import (
     LIGHTS,
     SHAPES,
     add,
@@ -41,7 +41,7 @@ from lucida.renderer.editing.objects import (
     new_table,
     rename,
 )
-from lucida.renderer.editing.outline import OutlineRow, outline
+from .outline import OutlineRow, outline
 
 __all__ = [
     "LIGHTS",

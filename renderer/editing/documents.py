@@ -9,7 +9,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lucida.renderer.editing.changing import as_tables, origin_of
 from lucida.renderer.files.load import SCENE_NAMES
 from lucida.renderer.files.reading import full_path, read_file
 from lucida.renderer.files.saving import file_tables, relocated, scene_text
@@ -20,6 +19,8 @@ from lucida.renderer.scene.origin import SavedFile
 from lucida.renderer.system.atomic import atomic_write, file_stem
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.file_dependencies import stamp
+
+from .changing import as_tables, origin_of
 
 
 class ChangedOnDiskError(LucidaError):

@@ -10,7 +10,10 @@ import copy
 from collections.abc import Sequence
 from typing import Any
 
-from lucida.renderer.editing.changing import (
+from lucida.renderer.files.saving import material_table
+from lucida.renderer.scene.model import Scene
+
+from .changing import (
     Item,
     as_tables,
     entry_of,
@@ -20,8 +23,6 @@ from lucida.renderer.editing.changing import (
     set_field,
     with_listed,
 )
-from lucida.renderer.files.saving import material_table
-from lucida.renderer.scene.model import Scene
 
 
 def set_material(scene: Scene, items: Sequence[Item], field: str, value: Any) -> Scene:

@@ -8,7 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.renderer.editing.changing import (
+from lucida.renderer.files.schema import PointLightTable
+from lucida.renderer.scene.boxes import extent, world_boxes
+from lucida.renderer.scene.model import Scene, Shape, Sphere
+from lucida.renderer.system.errors import LucidaError
+
+from .changing import (
     Item,
     as_tables,
     entry_of,
@@ -16,10 +21,6 @@ from lucida.renderer.editing.changing import (
     find,
     with_changed,
 )
-from lucida.renderer.files.schema import PointLightTable
-from lucida.renderer.scene.boxes import extent, world_boxes
-from lucida.renderer.scene.model import Scene, Shape, Sphere
-from lucida.renderer.system.errors import LucidaError
 
 Floats = NDArray[np.float64]
 

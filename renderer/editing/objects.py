@@ -7,7 +7,11 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from lucida.renderer.editing.changing import (
+from lucida.renderer.files.scene_file import new_keys
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.system.errors import LucidaError
+
+from .changing import (
     Item,
     Kind,
     Table,
@@ -18,9 +22,6 @@ from lucida.renderer.editing.changing import (
     set_field,
     with_listed,
 )
-from lucida.renderer.files.scene_file import new_keys
-from lucida.renderer.scene.model import Scene
-from lucida.renderer.system.errors import LucidaError
 
 SHAPES = ("sphere", "box", "rectangle", "disk", "cylinder", "cone", "torus")
 LIGHTS = ("point", "directional")
@@ -111,7 +112,7 @@ def duplicate(
 
     Copies share the arrays, but have names of their own.
     """
-    from lucida.renderer.editing.moving import shift
+    from .moving import shift
 
     scene = as_tables(scene)
     tables, taken = [], _names(scene)

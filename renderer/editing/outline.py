@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lucida.renderer.editing.changing import Item, as_tables, fields_of, listed, origin_of
 from lucida.renderer.files.schema import ModelTable
 from lucida.renderer.scene.model import Scene, SceneObject, Sphere, triangle_count
 from lucida.renderer.system.errors import LucidaError
+
+from .changing import Item, as_tables, fields_of, listed, origin_of
 
 
 @dataclass(frozen=True)

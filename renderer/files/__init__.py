@@ -11,15 +11,15 @@
 Knows nothing of renderers, pixels or windows.
 """
 
-from lucida.renderer.files.load import (
+from .load import (
     BUILTIN_SCENES,
     EMPTY_SCENE,
     SCENE_ENDINGS,
     SCENE_NAMES,
     load_scene,
 )
-from lucida.renderer.files.saving import save_scene
-from lucida.renderer.files.views import load_view, save_view, view_from_toml, view_to_toml
+from .saving import save_scene
+from .views import load_view, save_view, view_from_toml, view_to_toml
 
 __all__ = [
     "BUILTIN_SCENES",

@@ -6,19 +6,20 @@ import os
 from dataclasses import replace
 from pathlib import Path
 
-from lucida.renderer.files.models.models import model_scene
-from lucida.renderer.files.reading import (
+from lucida.renderer.scene.model import Scene
+from lucida.renderer.scene.origin import Origin
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.system.file_dependencies import Noted, noting
+
+from .models.models import model_scene
+from .reading import (
     MODEL_ENDINGS,
     absence,
     full_path,
     path_of,
     suggestion,
 )
-from lucida.renderer.files.scene_file import read_scene_file
-from lucida.renderer.scene.model import Scene
-from lucida.renderer.scene.origin import Origin
-from lucida.renderer.system.errors import LucidaError
-from lucida.renderer.system.file_dependencies import Noted, noting
+from .scene_file import read_scene_file
 
 BUILTIN_SCENES = (
     "still-life",

@@ -12,10 +12,11 @@ from typing import Any
 import tomlkit
 from tomlkit.exceptions import TOMLKitError
 
-from lucida.renderer.files.tables import MARK, parse_toml
-from lucida.renderer.files.toml_writing import toml_text, value_text
 from lucida.renderer.scene.origin import Keys
 from lucida.renderer.system.errors import LucidaError
+
+from .tables import MARK, parse_toml
+from .toml_writing import toml_text, value_text
 
 LISTS = ("objects", "lights")
 _COMMENT = r"[ \t]*#[^\n]*\n"

@@ -13,12 +13,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from lucida.renderer.files.load import BUILTIN_SCENES
-from lucida.renderer.files.reading import full_path
-from lucida.renderer.files.rewriting import CommentsLostError, rewritten
-from lucida.renderer.files.tables import VERSION
-from lucida.renderer.files.toml_writing import toml_text
-from lucida.renderer.files.views import view_table
 from lucida.renderer.scene import framing
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import (
@@ -32,6 +26,13 @@ from lucida.renderer.scene.model import (
 from lucida.renderer.scene.origin import Origin
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError, under
+
+from .load import BUILTIN_SCENES
+from .reading import full_path
+from .rewriting import CommentsLostError, rewritten
+from .tables import VERSION
+from .toml_writing import toml_text
+from .views import view_table
 
 FILES = ("file", "texture", "metal")  # keys whose text names a file
 

@@ -9,23 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.files.models.models import ModelFile
-from lucida.renderer.files.outside import check_inside
-from lucida.renderer.files.reading import check_count, decode_text, naming, read_file, suggestion
-from lucida.renderer.files.scene_parts import SceneParts, made_triangles, unmapped
-from lucida.renderer.files.schema import (
-    AnyLight,
-    AnyObject,
-    DirectionalLightTable,
-    MaterialTable,
-    MeshTable,
-    ModelTable,
-    PointLightTable,
-    SceneFile,
-    SphereTable,
-)
-from lucida.renderer.files.tables import parse_toml, to_struct
-from lucida.renderer.files.views import view_from_table
 from lucida.renderer.scene import framing, shapes
 from lucida.renderer.scene.limits import (
     LIGHTS,
@@ -48,6 +31,24 @@ from lucida.renderer.scene.model import (
 from lucida.renderer.scene.origin import FileEntry, Keys, Origin, SavedFile
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import LucidaError, under
+
+from .models.models import ModelFile
+from .outside import check_inside
+from .reading import check_count, decode_text, naming, read_file, suggestion
+from .scene_parts import SceneParts, made_triangles, unmapped
+from .schema import (
+    AnyLight,
+    AnyObject,
+    DirectionalLightTable,
+    MaterialTable,
+    MeshTable,
+    ModelTable,
+    PointLightTable,
+    SceneFile,
+    SphereTable,
+)
+from .tables import parse_toml, to_struct
+from .views import view_from_table
 
 SPLIT = "give at most {}, or split the scene"
 _keys = itertools.count(1)

@@ -13,8 +13,17 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from lucida.renderer.files.models.models import ModelFile, load_model
-from lucida.renderer.files.schema import (
+from lucida.renderer.scene import shapes
+from lucida.renderer.scene.limits import SEGMENTS, TEXTURES
+from lucida.renderer.scene.metal import EVERYWHERE, Metal
+from lucida.renderer.scene.model import Mesh, SceneObject
+from lucida.renderer.scene.origin import FileEntry
+from lucida.renderer.scene.shape_coordinates import on_box, on_cylinder, on_plane, on_torus
+from lucida.renderer.scene.texture import Texture
+from lucida.renderer.system.errors import LucidaError, under
+
+from .models.models import ModelFile, load_model
+from .schema import (
     BoxTable,
     ConeTable,
     CylinderTable,
@@ -27,15 +36,7 @@ from lucida.renderer.files.schema import (
     TextureTable,
     TorusTable,
 )
-from lucida.renderer.files.texture_images import FoundImage, inner_path, read_image
-from lucida.renderer.scene import shapes
-from lucida.renderer.scene.limits import SEGMENTS, TEXTURES
-from lucida.renderer.scene.metal import EVERYWHERE, Metal
-from lucida.renderer.scene.model import Mesh, SceneObject
-from lucida.renderer.scene.origin import FileEntry
-from lucida.renderer.scene.shape_coordinates import on_box, on_cylinder, on_plane, on_torus
-from lucida.renderer.scene.texture import Texture
-from lucida.renderer.system.errors import LucidaError, under
+from .texture_images import FoundImage, inner_path, read_image
 
 # For each shape the function that makes it, the one that adds texture coordinates, and its number
 # of triangles per segment (and side of a tube).

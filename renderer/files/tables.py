@@ -11,9 +11,10 @@ from typing import Any, Literal, get_args, get_origin
 
 import msgspec
 
-from lucida.renderer.files.reading import suggestion
 from lucida.renderer.scene.limits import KEY_PARTS
 from lucida.renderer.system.errors import LucidaError
+
+from .reading import suggestion
 
 MARK = "\ufeff"  # of the byte order, as Windows writes it
 VERSION = 1  # of the formats of scene and view files: their key `lucida`

@@ -16,9 +16,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.files.reading import check_bytes, read_file
 from lucida.renderer.scene.limits import IMAGE_BYTES, JPEG_SCANS, TEXELS, TEXTURE_SIDE, TEXTURES
 from lucida.renderer.system.errors import LucidaError, one_line, quoted, shortened
+
+from .reading import check_bytes, read_file
 
 Bytes = NDArray[np.uint8]
 # Pillow reads dozens of others, which nobody has textures in.

@@ -8,14 +8,15 @@ from typing import Any
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import MODELS, Lens
-from lucida.renderer.files.reading import decode_text, naming, path_of, read_file
-from lucida.renderer.files.schema import CameraFields, LookAtFields, ViewFile
-from lucida.renderer.files.tables import VERSION, parse_toml, to_struct
-from lucida.renderer.files.toml_writing import toml_text
 from lucida.renderer.scene.limits import TOML_BYTES
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError, not_together, under
+
+from .reading import decode_text, naming, path_of, read_file
+from .schema import CameraFields, LookAtFields, ViewFile
+from .tables import VERSION, parse_toml, to_struct
+from .toml_writing import toml_text
 
 _CAMERA = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far")
 LOOK_AT = {"target", "up", "fov_y_deg", "aspect"}  # fields that give LookAtFields away

@@ -1,7 +1,7 @@
 """Images: the display transform, pictures of channels, and files by their ending."""
 
-from lucida.renderer.images.display import encode_srgb, from_srgb, gray_picture, picture, to_srgb8
-from lucida.renderer.images.files import (
+from .display import encode_srgb, from_srgb, gray_picture, picture, to_srgb8
+from .files import (
     ENDINGS,
     PICTURES,
     check_image_path,

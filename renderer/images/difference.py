@@ -14,8 +14,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.images.display import encode_srgb
-from lucida.renderer.images.frame import Frame
+from .display import encode_srgb
+from .frame import Frame
 
 Bytes = NDArray[np.uint8]
 Floats32 = NDArray[np.float32]

@@ -11,9 +11,11 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.renderer.images import shared_numbers
-from lucida.renderer.images.frame import Frame
-from lucida.renderer.images.shared_numbers import (
+from lucida.renderer.system.errors import LucidaError
+
+from . import shared_numbers
+from .frame import Frame
+from .shared_numbers import (
     FARTHEST_GRAY,
     SRGB_GAMMA,
     SRGB_LINEAR,
@@ -22,7 +24,6 @@ from lucida.renderer.images.shared_numbers import (
     SRGB_SHIFT,
     SRGB_SLOPE,
 )
-from lucida.renderer.system.errors import LucidaError
 
 Bytes = NDArray[np.uint8]
 Floats32 = NDArray[np.float32]

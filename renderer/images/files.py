@@ -18,11 +18,12 @@ from typing import BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.images.display import Bytes, gray_of, gray_picture, picture
-from lucida.renderer.images.frame import Frame
-from lucida.renderer.images.png import write_png
 from lucida.renderer.system.atomic import atomic_write, check_writable
 from lucida.renderer.system.errors import LucidaError
+
+from .display import Bytes, gray_of, gray_picture, picture
+from .frame import Frame
+from .png import write_png
 
 # EXR's channel names, with its convention for layers: "N.X" is the X of layer N.
 EXR_CHANNELS = {

@@ -11,8 +11,9 @@ from dataclasses import replace
 import numpy as np
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.images.frame import Frame
 from lucida.renderer.system.errors import LucidaError
+
+from .frame import Frame
 
 MOST_SAMPLES = 64
 

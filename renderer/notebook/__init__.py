@@ -10,8 +10,9 @@ from lucida.renderer.system.errors import LucidaError
 
 if TYPE_CHECKING:
     from lucida.renderer.camera.camera import Camera
-    from lucida.renderer.notebook.widget import Explorer
     from lucida.renderer.scene import Scene
+
+    from .widget import Explorer
 
 
 def explore(
@@ -28,7 +29,7 @@ def explore(
     LucidaError, also if anywidget is not installed.
     """
     try:
-        from lucida.renderer.notebook.widget import Explorer
+        from .widget import Explorer
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] not in ("anywidget", "ipywidgets", "traitlets"):
             raise

@@ -31,7 +31,6 @@ from lucida.renderer.images import picture
 from lucida.renderer.images.coarseness import Coarseness, reduced
 from lucida.renderer.images.frame import CHANNELS, Frame, check_size
 from lucida.renderer.images.png import write_png
-from lucida.renderer.notebook.sliders import sliders_of, target_of, with_number
 from lucida.renderer.scene import Scene
 from lucida.renderer.scene.focus import scene_focus
 from lucida.renderer.scene.model import View
@@ -39,6 +38,8 @@ from lucida.renderer.system import compile_note
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.memo import Memo
 from lucida.renderer.trace import TraceJob, Tracer
+
+from .sliders import sliders_of, target_of, with_number
 
 MOVING_S = 0.03  # for an image in motion: 15 a second, including the transfer to the browser
 PATIENCE_S = 0.25  # after this time, the browser is asked to try again

@@ -6,11 +6,11 @@ channels into pictures for a screen; screen_pass.py has the passes over whole
 images; depth_range.py finds the range for the depth's false colours.
 """
 
-from lucida.renderer.raster.depth_range import DepthRange
-from lucida.renderer.raster.display import Display, Look, Section, upload
-from lucida.renderer.raster.prepared import Prepared, prepare
-from lucida.renderer.raster.rasterizer import Rasterizer
-from lucida.renderer.raster.targets import Textures
+from .depth_range import DepthRange
+from .display import Display, Look, Section, upload
+from .prepared import Prepared, prepare
+from .rasterizer import Rasterizer
+from .targets import Textures
 
 __all__ = [
     "DepthRange",

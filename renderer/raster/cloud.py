@@ -13,10 +13,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.raster.lines import CASING
-from lucida.renderer.raster.programs import set_uniform
-from lucida.renderer.raster.resources import Owner, check, new_texture
-from lucida.renderer.raster.sources import link
+from .lines import CASING
+from .programs import set_uniform
+from .resources import Owner, check, new_texture
+from .sources import link
 
 Size = tuple[int, int]
 Rgba = tuple[float, float, float, float]

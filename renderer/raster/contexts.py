@@ -14,10 +14,11 @@ from typing import Any
 
 import moderngl
 
-from lucida.renderer.raster.current import found_library, load_egl, load_osmesa, nothing_current
-from lucida.renderer.raster.packages import remedy
 from lucida.renderer.system.child import check_not_forked
 from lucida.renderer.system.errors import LucidaError
+
+from .current import found_library, load_egl, load_osmesa, nothing_current
+from .packages import remedy
 
 BACKENDS = ("auto", "egl", "osmesa")
 # From the headers of OSMesa and GL.

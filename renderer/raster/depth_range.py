@@ -10,8 +10,9 @@ import moderngl
 import numpy as np
 
 from lucida.renderer.images.shared_numbers import FARTHEST
-from lucida.renderer.raster.resources import Owner
-from lucida.renderer.raster.screen_pass import SizedTarget, Target, cover, new_array, plain_state
+
+from .resources import Owner
+from .screen_pass import SizedTarget, Target, cover, new_array, plain_state
 
 SIDE = 16  # of the blocks in range.frag
 

@@ -12,8 +12,8 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.raster.resources import Owner, new_texture
-from lucida.renderer.raster.screen_pass import cover, new_array, plain_state, set_uniforms
+from .resources import Owner, new_texture
+from .screen_pass import cover, new_array, plain_state, set_uniforms
 
 SQUARES = 32
 

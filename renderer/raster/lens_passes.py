@@ -10,9 +10,10 @@ import moderngl
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lens_faces import looked_up_faces
-from lucida.renderer.raster.scene_data import SceneData
-from lucida.renderer.raster.setup import RasterView
-from lucida.renderer.raster.targets import Targets
+
+from .scene_data import SceneData
+from .setup import RasterView
+from .targets import Targets
 
 
 def draw_passes(camera: Camera, enlargement: int, data: SceneData, targets: Targets) -> None:

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lens_faces import Face
-from lucida.renderer.raster.resources import Owner, new_texture
+
+from .resources import Owner, new_texture
 
 
 class Lookup(NamedTuple):

@@ -13,9 +13,9 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.raster.programs import set_uniform
-from lucida.renderer.raster.resources import Owner
-from lucida.renderer.raster.sources import link
+from .programs import set_uniform
+from .resources import Owner
+from .sources import link
 
 # Flags of segments and corners.
 ON_PLANE = 1  # part of the image plane, which does not hide it

@@ -14,19 +14,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.raster.cloud import PREMULTIPLIED, CloudPicture
-from lucida.renderer.raster.display import exposure_factor
-from lucida.renderer.raster.lines import BLENDING, Layer, LineRenderer
-from lucida.renderer.raster.resources import Owner
-from lucida.renderer.raster.screen_pass import (
+from lucida.renderer.system.memo import Memo
+
+from .cloud import PREMULTIPLIED, CloudPicture
+from .display import exposure_factor
+from .lines import BLENDING, Layer, LineRenderer
+from .resources import Owner
+from .screen_pass import (
     SizedTarget,
     cover,
     new_array,
     plain_state,
     set_uniforms,
 )
-from lucida.renderer.raster.targets import Textures
-from lucida.renderer.system.memo import Memo
+from .targets import Textures
 
 Size = tuple[int, int]
 FAR_PX = 1e6  # outside every image

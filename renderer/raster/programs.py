@@ -9,9 +9,10 @@ import moderngl
 import numpy as np
 
 from lucida.renderer.images.shared_numbers import CHECKERED
-from lucida.renderer.raster.resources import Owner
-from lucida.renderer.raster.sources import Constant, link
 from lucida.renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
+
+from .resources import Owner
+from .sources import Constant, link
 
 # The samplers' texture units, the same in all programs. Those of different kinds never share one.
 SAMPLERS = (

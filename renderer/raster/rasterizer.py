@@ -20,17 +20,18 @@ from lucida.renderer.camera.camera import Camera, check_camera
 from lucida.renderer.camera.pixels import ENLARGEMENT, ENLARGEMENTS
 from lucida.renderer.images.frame import Frame, check_channels, check_size
 from lucida.renderer.images.samples import Progress, check_samples, supersampled
-from lucida.renderer.raster.contexts import check_process, is_inherited, open_platform
-from lucida.renderer.raster.lens_passes import draw_passes
-from lucida.renderer.raster.prepared import Prepared, prepare
-from lucida.renderer.raster.programs import Programs
-from lucida.renderer.raster.resources import Owner, check
-from lucida.renderer.raster.scene_data import SceneData
-from lucida.renderer.raster.screen_pass import plain_state
-from lucida.renderer.raster.targets import Region, Targets, Textures
 from lucida.renderer.scene.flat import same_places
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
+
+from .contexts import check_process, is_inherited, open_platform
+from .lens_passes import draw_passes
+from .prepared import Prepared, prepare
+from .programs import Programs
+from .resources import Owner, check
+from .scene_data import SceneData
+from .screen_pass import plain_state
+from .targets import Region, Targets, Textures
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 

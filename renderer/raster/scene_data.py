@@ -13,11 +13,13 @@ import numpy as np
 
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.images.shared_numbers import OBJECT_TEXELS, SPHERE_TEXELS
-from lucida.renderer.raster.lens_targets import Lookup
-from lucida.renderer.raster.prepared import Prepared
-from lucida.renderer.raster.programs import UNITS, Programs, set_uniform
-from lucida.renderer.raster.resources import Owner, check
-from lucida.renderer.raster.setup import (
+from lucida.renderer.scene.flat import FlatScene
+
+from .lens_targets import Lookup
+from .prepared import Prepared
+from .programs import UNITS, Programs, set_uniform
+from .resources import Owner, check
+from .setup import (
     CAMERA_BLOCK,
     RasterView,
     camera_block,
@@ -28,8 +30,7 @@ from lucida.renderer.raster.setup import (
     sphere_rows,
     triangle_rows,
 )
-from lucida.renderer.raster.tables import TABLE_WIDTH, Table
-from lucida.renderer.scene.flat import FlatScene
+from .tables import TABLE_WIDTH, Table
 
 BOX_VERTICES = 36
 MARGIN = 1024  # pixels around the image, or half its size; Mesa 22.3 loses triangles with 4096

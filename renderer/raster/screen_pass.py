@@ -8,9 +8,9 @@ from typing import Any
 
 import moderngl
 
-from lucida.renderer.raster.programs import set_uniform
-from lucida.renderer.raster.resources import Owner, check, new_texture
-from lucida.renderer.raster.sources import Constant, link
+from .programs import set_uniform
+from .resources import Owner, check, new_texture
+from .sources import Constant, link
 
 Size = tuple[int, int]
 Target = tuple[moderngl.Texture, moderngl.Framebuffer]

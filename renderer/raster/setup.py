@@ -35,9 +35,10 @@ from lucida.renderer.images.shared_numbers import (
     ROW_INSIDE,
     SPHERE_TEXELS,
 )
-from lucida.renderer.raster.prepared import SceneSetup
 from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.scene.positions import lights_from, near_point
+
+from .prepared import SceneSetup
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
 TINY = 1e-30

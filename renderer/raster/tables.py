@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.images.shared_numbers import TABLE_SHIFT
-from lucida.renderer.raster.resources import new_texture
 from lucida.renderer.system.errors import LucidaError
+
+from .resources import new_texture
 
 TABLE_WIDTH = 1 << TABLE_SHIFT
 

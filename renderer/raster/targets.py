@@ -10,9 +10,10 @@ import moderngl
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.raster.lens_targets import LensTargets
-from lucida.renderer.raster.resources import Owner, check, new_texture
 from lucida.renderer.system.errors import LucidaError
+
+from .lens_targets import LensTargets
+from .resources import Owner, check, new_texture
 
 Region = tuple[int, int, int, int]
 

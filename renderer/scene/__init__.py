@@ -8,10 +8,10 @@
 This package knows nothing of renderers, pixels or windows.
 """
 
-from lucida.renderer.scene import shapes
-from lucida.renderer.scene.flat import FlatScene, flatten
-from lucida.renderer.scene.material import Material
-from lucida.renderer.scene.model import (
+from . import shapes
+from .flat import FlatScene, flatten
+from .material import Material
+from .model import (
     Checker,
     Color,
     DirectionalLight,
@@ -23,8 +23,8 @@ from lucida.renderer.scene.model import (
     Sphere,
     View,
 )
-from lucida.renderer.scene.origin import Origin
-from lucida.renderer.scene.texture import Texture
+from .origin import Origin
+from .texture import Texture
 
 __all__ = [
     "Checker",

@@ -25,9 +25,11 @@ from numpy.typing import NDArray
 
 from lucida.renderer.camera.checks import arrays_text
 from lucida.renderer.images.shared_numbers import CHECKERED
-from lucida.renderer.scene.boxes import extent, world_boxes
-from lucida.renderer.scene.flat_textures import TextureArrays, on_sphere, texture_arrays
-from lucida.renderer.scene.model import (
+from lucida.renderer.system.errors import LucidaError
+
+from .boxes import extent, world_boxes
+from .flat_textures import TextureArrays, on_sphere, texture_arrays
+from .model import (
     Checker,
     Mesh,
     PointLight,
@@ -36,7 +38,6 @@ from lucida.renderer.scene.model import (
     Shape,
     Sphere,
 )
-from lucida.renderer.system.errors import LucidaError
 
 F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]

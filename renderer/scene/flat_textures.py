@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.images.shared_numbers import WRAP_BITS
-from lucida.renderer.scene.limits import TEXELS
-from lucida.renderer.scene.metal import packed_metal, sized_alike
-from lucida.renderer.scene.model import Mesh, Scene
-from lucida.renderer.scene.texture import WRAPS, Texture, packed_opacity, packed_texels
 from lucida.renderer.system.errors import LucidaError
+
+from .limits import TEXELS
+from .metal import packed_metal, sized_alike
+from .model import Mesh, Scene
+from .texture import WRAPS, Texture, packed_opacity, packed_texels
 
 # Texture coordinates are kept within this many texels of 0: beyond, float32 is too coarse.
 FARTHEST_TEXEL = float(1 << 22)

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.camera.checks import Vector
-from lucida.renderer.scene.boxes import corners_of, extent
-from lucida.renderer.scene.model import Scene, SceneObject, Sphere
+
+from .boxes import corners_of, extent
+from .model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]
 

@@ -10,10 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.scene.focus import object_corners
-from lucida.renderer.scene.material import Material
-from lucida.renderer.scene.model import DirectionalLight, SceneObject, Sphere, View
 from lucida.renderer.system.errors import LucidaError
+
+from .focus import object_corners
+from .material import Material
+from .model import DirectionalLight, SceneObject, Sphere, View
 
 MATERIAL = Material(diffuse=(0.62, 0.62, 0.62), specular=(0.1, 0.1, 0.1), shininess=40.0)
 AMBIENT = (0.1, 0.1, 0.1)

@@ -10,9 +10,10 @@ import numpy as np
 
 from lucida.renderer.camera.checks import number, numbers
 from lucida.renderer.images.display import from_srgb
-from lucida.renderer.scene.metal import Metal, reflectances
-from lucida.renderer.scene.texture import WHITE, Texture
 from lucida.renderer.system.errors import LucidaError
+
+from .metal import Metal, reflectances
+from .texture import WHITE, Texture
 
 Color = tuple[float, float, float]
 

@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 
 from lucida.renderer.camera.checks import number
 from lucida.renderer.images.display import from_srgb
-from lucida.renderer.scene.texture import packed_light
 from lucida.renderer.system.errors import LucidaError
+
+from .texture import packed_light
 
 DIELECTRIC = 0.04  # the reflectance of anything but a metal, seen head on
 # The diffuse part of a metal's base colour: it replaces the reflection of surroundings, which a

@@ -17,14 +17,15 @@ from numpy.typing import ArrayLike, NDArray
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import LARGEST, volume
 from lucida.renderer.images.frame import DISPLAY
-from lucida.renderer.scene.material import BRIGHTEST as BRIGHTEST
-from lucida.renderer.scene.material import Checker as Checker
-from lucida.renderer.scene.material import Color as Color
-from lucida.renderer.scene.material import Material, color, length, vector
-from lucida.renderer.scene.material import without_metal as without_metal
-from lucida.renderer.scene.origin import Origin
-from lucida.renderer.scene.texture import is_final
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
+
+from .material import BRIGHTEST as BRIGHTEST
+from .material import Checker as Checker
+from .material import Color as Color
+from .material import Material, color, length, vector
+from .material import without_metal as without_metal
+from .origin import Origin
+from .texture import is_final
 
 Floats32 = NDArray[np.float32]
 

@@ -11,8 +11,9 @@ from itertools import accumulate
 from pathlib import Path
 from typing import Any, Literal
 
-from lucida.renderer.scene.material import Material
 from lucida.renderer.system.file_dependencies import Noted
+
+from .material import Material
 
 ItemKind = Literal["objects", "lights"]
 Keys = tuple[tuple[int, ...], tuple[int, ...]]  # of a scene's objects, and of its lights

@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.renderer.scene.flat import FlatScene
+from .flat import FlatScene
 
 F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]

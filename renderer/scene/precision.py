@@ -12,9 +12,10 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.scene.boxes import corners_of
-from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.system.errors import LucidaError
+
+from .boxes import corners_of
+from .flat import FlatScene
 
 # GL clips in float32: an edge made by clipping has an error of 2^-24 of the clipped length, and is
 # 1024 pixels outside the image (MARGIN, renderer/raster/scene_data.py).

@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.images.shared_numbers import CLAMP, MIRROR, TEXEL_BITS, WRAP_BITS
-from lucida.renderer.scene.flat import CHECKER_DIFFUSE, FlatScene
+
+from .flat import CHECKER_DIFFUSE, FlatScene
 
 F64 = NDArray[np.float64]
 Ints = NDArray[np.integer]

@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.scene.model import Mesh
-from lucida.renderer.scene.normals import face_normals
+from .model import Mesh
+from .normals import face_normals
 
 Floats = NDArray[np.float64]
 CAP = 1 - 1e-6  # the least y of a unit normal at an end of a cylinder or a cone

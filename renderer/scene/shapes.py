@@ -14,10 +14,11 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.scene.limits import SEGMENTS
-from lucida.renderer.scene.material import length, vector
-from lucida.renderer.scene.model import Mesh
 from lucida.renderer.system.errors import LucidaError
+
+from .limits import SEGMENTS
+from .material import length, vector
+from .model import Mesh
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

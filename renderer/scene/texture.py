@@ -20,8 +20,9 @@ from numpy.typing import NDArray
 from lucida.renderer.camera.checks import number, numbers
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.images.shared_numbers import TEXEL_BITS
-from lucida.renderer.scene.limits import TEXTURE_SIDE
 from lucida.renderer.system.errors import LucidaError
+
+from .limits import TEXTURE_SIDE
 
 WRAPS = ("repeat", "mirror", "clamp")  # by number
 LARGEST_SCALE = 1e5

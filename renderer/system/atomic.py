@@ -14,7 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
-from lucida.renderer.system.errors import LucidaError
+from .errors import LucidaError
 
 _PART = ".lucida-*.part"
 _DAY_S = 86_400

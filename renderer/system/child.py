@@ -15,7 +15,7 @@ from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 
-from lucida.renderer.system.errors import LucidaError
+from .errors import LucidaError
 
 _NICENESS = 2  # the window has priority
 _START = "import sys, json; sys.path[:] = json.loads(sys.argv[1]); "

@@ -24,7 +24,8 @@ from pathlib import Path
 
 from lucida.renderer.raster.contexts import candidates
 from lucida.renderer.raster.packages import remedy
-from lucida.renderer.system.child import child_command, interpreter
+
+from .child import child_command, interpreter
 
 TIMEOUT_S = 60.0  # a driver's first compilation of shaders can take long
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextvars import ContextVar
 from pathlib import Path
 
-from lucida.renderer.system.cancelling import during
+from .cancelling import during
 
 Stamp = tuple[int, int, int]  # differs between two versions of a file
 Noted = dict[Path, Stamp | None]  # by absolute path; None for a missing file

@@ -6,7 +6,7 @@ import os
 import stat
 from pathlib import Path
 
-from lucida.renderer.system.errors import LucidaError
+from .errors import LucidaError
 
 _OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
 

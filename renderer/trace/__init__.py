@@ -3,7 +3,7 @@
 Importing this package is quick: numba and the compiled kernels are loaded by a Tracer's own thread.
 """
 
-from lucida.renderer.trace.image_job import TraceJob
-from lucida.renderer.trace.tracer import Tracer
+from .image_job import TraceJob
+from .tracer import Tracer
 
 __all__ = ["TraceJob", "Tracer"]

@@ -8,7 +8,8 @@ import os
 import sys
 
 from lucida.renderer.system.child import end_with_parent
-from lucida.renderer.trace.parts import compile_part
+
+from .parts import compile_part
 
 
 def main(*parts: str) -> None:
@@ -37,8 +38,8 @@ def can_fork() -> bool:
 
 def import_compiler() -> None:
     """Import all modules that compilation, or loading from the cache, needs."""
-    from lucida.renderer.trace.reference_engine import ReferenceEngine  # noqa: F401
-    from lucida.renderer.trace.tiles.engine import PacketEngine  # noqa: F401
+    from .reference_engine import ReferenceEngine  # noqa: F401
+    from .tiles.engine import PacketEngine  # noqa: F401
 
 
 def _fork(part: str) -> int:
@@ -54,8 +55,8 @@ def _fork(part: str) -> int:
 
 def _compile(part: str) -> int:
     """Compile a part. Return the exit status."""
-    from lucida.renderer.trace.compile.cache_folder import cache_folder
-    from lucida.renderer.trace.compile.compiled import is_cached
+    from .compile.cache_folder import cache_folder
+    from .compile.compiled import is_cached
 
     compile_part(part)
     folder = cache_folder()

@@ -14,9 +14,10 @@ from typing import Any
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.system.child import check_not_forked
-from lucida.renderer.trace.arguments.buffers import Buffers
-from lucida.renderer.trace.arguments.image import Image, Rows, new_image, to_frame
-from lucida.renderer.trace.threads.thread_pool import DONE, cancel, new_control
+
+from .arguments.buffers import Buffers
+from .arguments.image import Image, Rows, new_image, to_frame
+from .threads.thread_pool import DONE, cancel, new_control
 
 
 class Task:

@@ -17,9 +17,10 @@ from collections.abc import Callable
 from functools import partial
 
 from lucida.renderer.scene.model import Mesh, Scene, SceneObject
-from lucida.renderer.trace.image_job import Task
-from lucida.renderer.trace.ray_batch import RayBatch
-from lucida.renderer.trace.tiles.variants import Variant, variant_of
+
+from .image_job import Task
+from .ray_batch import RayBatch
+from .tiles.variants import Variant, variant_of
 
 
 def parts_of(method: str, effects: bool, scene: Scene, task: Task | RayBatch) -> tuple[str, ...]:
@@ -42,10 +43,11 @@ def compile_part(part: str) -> None:
     import numpy as np
 
     from lucida.renderer.scene.flat import flatten
-    from lucida.renderer.trace.bvh.instances import Instances
-    from lucida.renderer.trace.reference_engine import ReferenceEngine
-    from lucida.renderer.trace.threads.thread_pool import Team
-    from lucida.renderer.trace.tiles.engine import PacketEngine
+
+    from .bvh.instances import Instances
+    from .reference_engine import ReferenceEngine
+    from .threads.thread_pool import Team
+    from .tiles.engine import PacketEngine
 
     alone, nothing = Team(1), Scene(())
     triangle = SceneObject(Mesh(np.eye(3, dtype=np.float32), np.array([[0, 1, 2]], np.int32)))

@@ -13,9 +13,10 @@ from collections.abc import Callable, Sequence
 
 from lucida.renderer.system import compile_note
 from lucida.renderer.system.child import end_child, interpreter, start_child
-from lucida.renderer.trace import compile_child
-from lucida.renderer.trace.compile.cache_folder import cache_folder
-from lucida.renderer.trace.threads.thread_pool import default_threads
+
+from . import compile_child
+from .compile.cache_folder import cache_folder
+from .threads.thread_pool import default_threads
 
 _POLL_S = 0.01
 

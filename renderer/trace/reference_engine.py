@@ -8,11 +8,12 @@ from __future__ import annotations
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.flat import flatten
 from lucida.renderer.scene.model import Scene
-from lucida.renderer.trace.arguments.image import Image, Rows, new_image
-from lucida.renderer.trace.arguments.view import KernelView
-from lucida.renderer.trace.bvh.binary import tree_of_scene
-from lucida.renderer.trace.reference.kernel import trace_image
-from lucida.renderer.trace.threads.thread_pool import Control, Team, cancelled_control
+
+from .arguments.image import Image, Rows, new_image
+from .arguments.view import KernelView
+from .bvh.binary import tree_of_scene
+from .reference.kernel import trace_image
+from .threads.thread_pool import Control, Team, cancelled_control
 
 
 class ReferenceEngine:

@@ -20,12 +20,13 @@ from lucida.renderer.images.frame import Frame, check_channels, check_size
 from lucida.renderer.images.samples import check_samples, supersampled
 from lucida.renderer.scene.model import Scene, check_scene
 from lucida.renderer.system.errors import LucidaError
-from lucida.renderer.trace.arguments.buffers import Buffers
-from lucida.renderer.trace.arguments.image import Rows
-from lucida.renderer.trace.image_job import Task, TraceJob
-from lucida.renderer.trace.ray_batch import RayBatch
-from lucida.renderer.trace.threads.thread_pool import check_threads
-from lucida.renderer.trace.worker import Worker
+
+from .arguments.buffers import Buffers
+from .arguments.image import Rows
+from .image_job import Task, TraceJob
+from .ray_batch import RayBatch
+from .threads.thread_pool import check_threads
+from .worker import Worker
 
 DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 METHODS = ("packets", "reference")

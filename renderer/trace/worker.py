@@ -18,10 +18,11 @@ from typing import Any
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.child import check_not_forked
 from lucida.renderer.system.errors import LucidaError
-from lucida.renderer.trace.image_job import Task
-from lucida.renderer.trace.parts import compile_part, parts_of
-from lucida.renderer.trace.ray_batch import RayBatch
-from lucida.renderer.trace.threads.thread_pool import AbandonedError, Team
+
+from .image_job import Task
+from .parts import compile_part, parts_of
+from .ray_batch import RayBatch
+from .threads.thread_pool import AbandonedError, Team
 
 Work = Task | RayBatch
 
@@ -138,16 +139,16 @@ class Worker:
     def _new_engine(self, scene: Scene) -> Any:
         """Return the scene prepared for this worker's method. Imports numba."""
         if self._method == "reference":
-            from lucida.renderer.trace.reference_engine import ReferenceEngine
+            from .reference_engine import ReferenceEngine
 
             return ReferenceEngine(scene, self._team)
-        from lucida.renderer.trace.tiles.engine import PacketEngine
+        from .tiles.engine import PacketEngine
 
         return PacketEngine(scene, self._team, *self._effects)
 
     def _compile(self, scene: Scene, task: Work) -> None:
         """Compile the parts that a task needs, in other processes, and load them."""
-        from lucida.renderer.trace.precompile import precompile
+        from .precompile import precompile
 
         parts = parts_of(self._method, any(self._effects), scene, task)
         new = [part for part in parts if part not in self._compiled]

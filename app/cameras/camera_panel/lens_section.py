@@ -7,7 +7,6 @@ from dataclasses import replace
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.camera_panel.projection import PanelContext
 from lucida.app.cameras.editing import Draft, edit_field
 from lucida.app.cameras.lens_choices import (
     KINDS,
@@ -23,6 +22,8 @@ from lucida.app.ui.fields import Scale
 from lucida.app.ui.formula import formula
 from lucida.renderer.camera.lenses import MODELS, Lens, coefficient_range, with_coefficient
 from lucida.renderer.system.errors import LucidaError
+
+from .projection import PanelContext
 
 MODEL = "How the lens maps directions to the image plane."
 

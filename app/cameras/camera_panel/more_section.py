@@ -7,8 +7,6 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from lucida.app.cameras.basis import measures
-from lucida.app.cameras.camera_panel.basis_numbers import basis_readout
-from lucida.app.cameras.camera_panel.projection import NO_EYE, PanelContext, viewport_scale
 from lucida.app.cameras.editing import BASIS, Draft, edit_field
 from lucida.app.cameras.presets import clip_around
 from lucida.app.state.app_state import AppState
@@ -17,6 +15,9 @@ from lucida.app.ui.checks import checkbox
 from lucida.app.ui.fields import Scale
 from lucida.renderer.camera.navigation import depth_of, dollied, with_shift
 from lucida.renderer.system.errors import LucidaError
+
+from .basis_numbers import basis_readout
+from .projection import NO_EYE, PanelContext, viewport_scale
 
 SHIFTS = (
     ("u", "Off-axis: the middle of the viewport along u. Its size stays."),

@@ -10,23 +10,24 @@ from dataclasses import dataclass
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.camera_panel.actions import go_home, go_to_canonical, switch_projection
-from lucida.app.cameras.camera_panel.lens_section import lens_section
-from lucida.app.cameras.camera_panel.more_section import more_section
-from lucida.app.cameras.camera_panel.projection import PanelContext, component, projection_numbers
-from lucida.app.cameras.camera_panel.sections import (
-    Sections,
-    Wish,
-    header,
-    look_section,
-    words_section,
-)
 from lucida.app.cameras.editing import BASIS, Draft
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.camera import CameraPart
 from lucida.app.ui import pending, rows, theme
 from lucida.app.ui.checks import radio_button
 from lucida.app.ui.fields import Scale
+
+from .actions import go_home, go_to_canonical, switch_projection
+from .lens_section import lens_section
+from .more_section import more_section
+from .projection import PanelContext, component, projection_numbers
+from .sections import (
+    Sections,
+    Wish,
+    header,
+    look_section,
+    words_section,
+)
 
 ROLES = {
     "eye": ("e", "eye", "The eye: where all viewing rays start (perspective)."),

@@ -12,8 +12,6 @@ from typing import Any, NamedTuple
 
 from imgui_bundle import imgui
 
-from lucida.app.cameras.camera_panel.actions import look_there
-from lucida.app.cameras.camera_panel.projection import PanelContext
 from lucida.app.cameras.other_words import TOLD, other_words
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
@@ -24,6 +22,9 @@ from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
 from lucida.renderer.system.errors import LucidaError
+
+from .actions import look_there
+from .projection import PanelContext
 
 ORIGINS: tuple[tuple[str, PixelOrigin], ...] = (("centres", "center"), ("corners", "corner"))
 ORIGIN_NOTES: dict[PixelOrigin, str] = {

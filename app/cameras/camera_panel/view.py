@@ -8,15 +8,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from lucida.app.cameras.camera_panel.actions import CAMERA as ACTIONS
-from lucida.app.cameras.camera_panel.actions import EDIT, image_size
-from lucida.app.cameras.camera_panel.panel import PanelOutcome, camera_panel
-from lucida.app.cameras.camera_panel.projection import PanelContext
-from lucida.app.cameras.camera_panel.sections import Sections
 from lucida.app.cameras.editing import Draft
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.layout import INSTRUMENTS
+
+from .actions import CAMERA as ACTIONS
+from .actions import EDIT, image_size
+from .panel import PanelOutcome, camera_panel
+from .projection import PanelContext
+from .sections import Sections
 
 CAMERA = "Camera"
 

@@ -11,12 +11,13 @@ from pathlib import Path
 
 from PIL import Image
 
-from lucida.app.cameras.films.workers import PACKAGE
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images import join_exrs
 from lucida.renderer.images.png import join_pngs
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
+
+from .workers import PACKAGE
 
 # Writes a file of these pictures, and yields the finished part.
 Writer = Callable[[Path, Sequence[Path]], Iterator[float]]

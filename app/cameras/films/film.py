@@ -12,12 +12,13 @@ from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
 
-from lucida.app.cameras.films.encoding import Writer
-from lucida.app.cameras.films.frames import Look, Shot
-from lucida.app.cameras.films.workers import drawn_by_workers, drawn_here
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
+
+from .encoding import Writer
+from .frames import Look, Shot
+from .workers import drawn_by_workers, drawn_here
 
 _ENCODING = 0.1  # of the progress
 

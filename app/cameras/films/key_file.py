@@ -16,7 +16,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from lucida.app.cameras.films.paths import Key, Timing
 from lucida.renderer.files.reading import decode_text, naming, read_file
 from lucida.renderer.files.schema import StrictTable
 from lucida.renderer.files.tables import VERSION, parse_toml, to_struct
@@ -24,6 +23,8 @@ from lucida.renderer.files.toml_writing import value_text
 from lucida.renderer.files.views import load_view, view_from_table, view_table
 from lucida.renderer.scene.limits import TOML_BYTES
 from lucida.renderer.system.errors import LucidaError, under
+
+from .paths import Key, Timing
 
 LONGEST_S = 3600.0
 

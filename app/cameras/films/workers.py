@@ -14,10 +14,11 @@ from dataclasses import replace
 from itertools import islice
 from typing import Any
 
-from lucida.app.cameras.films.frames import Look, Shot, close_kept, draw_shot
 from lucida.renderer.raster.packages import installing
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
+
+from .frames import Look, Shot, close_kept, draw_shot
 
 PACKAGE = installing("av distributed")
 AHEAD = 4  # pictures that each worker has been given

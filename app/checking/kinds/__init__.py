@@ -10,12 +10,12 @@ render       both loops
 
 from __future__ import annotations
 
-from lucida.app.checking.kinds.basis import BASIS
-from lucida.app.checking.kinds.hits import CLOSEST, SPHERE, TRIANGLE
-from lucida.app.checking.kinds.images import BITMAP, GRAY, OFFSET
-from lucida.app.checking.kinds.kind import CheckKind
-from lucida.app.checking.kinds.render import RENDER
-from lucida.app.checking.kinds.viewing_ray import VIEWING_RAY
+from .basis import BASIS
+from .hits import CLOSEST, SPHERE, TRIANGLE
+from .images import BITMAP, GRAY, OFFSET
+from .kind import CheckKind
+from .render import RENDER
+from .viewing_ray import VIEWING_RAY
 
 # In the order of the lecture, as the built-in tasks.
 IN_ORDER: tuple[CheckKind, ...] = (

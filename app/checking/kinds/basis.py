@@ -14,11 +14,12 @@ from typing import Any
 import numpy as np
 
 from lucida.app.checking.cases import generator, look
-from lucida.app.checking.kinds.kind import FLOAT32, CheckKind, Floats, named, vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.checking.words import FIRST_CASES, described
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
+
+from .kind import FLOAT32, CheckKind, Floats, named, vectors
 
 # Index of u, v or w, and its sign.
 PARTS = {

@@ -22,7 +22,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lucida.app.checking.cases import generator, point, rounded
-from lucida.app.checking.kinds.kind import (
+from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import FIRST_CASES, described
+
+from .kind import (
     FLOAT32,
     CheckKind,
     Floats,
@@ -32,9 +35,7 @@ from lucida.app.checking.kinds.kind import (
     number,
     text_of,
 )
-from lucida.app.checking.kinds.shapes import hits, tolerance
-from lucida.app.checking.tasks import CheckCase, CheckTask
-from lucida.app.checking.words import FIRST_CASES, described
+from .shapes import hits, tolerance
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

@@ -15,7 +15,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lucida.app.checking.cases import generator
-from lucida.app.checking.kinds.kind import (
+from lucida.app.checking.tasks import CheckCase, CheckTask
+from lucida.app.checking.words import described
+
+from .kind import (
     Cases,
     CheckKind,
     Flags,
@@ -26,8 +29,6 @@ from lucida.app.checking.kinds.kind import (
     text_of,
     wrong_numbers,
 )
-from lucida.app.checking.tasks import CheckCase, CheckTask
-from lucida.app.checking.words import described
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

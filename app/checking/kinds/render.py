@@ -18,11 +18,12 @@ from numpy.typing import NDArray
 
 from lucida.app.checking.cases import generator, rounded, shots
 from lucida.app.checking.conventions import Shot, camera_values
-from lucida.app.checking.kinds.images import HALF_A_BYTE, ImageKind
-from lucida.app.checking.kinds.kind import Flags, named
-from lucida.app.checking.kinds.shapes import hits
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.checking.words import described
+
+from .images import HALF_A_BYTE, ImageKind
+from .kind import Flags, named
+from .shapes import hits
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random

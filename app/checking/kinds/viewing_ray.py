@@ -25,11 +25,12 @@ from lucida.app.checking.conventions import (
     Shot,
     argument_lists,
 )
-from lucida.app.checking.kinds.basis import conditioning
-from lucida.app.checking.kinds.kind import FLOAT32, Cases, CheckKind, Flags, Floats, vectors
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.checking.words import described
 from lucida.renderer.camera.camera import Camera
+
+from .basis import conditioning
+from .kind import FLOAT32, Cases, CheckKind, Flags, Floats, vectors
 
 
 class ViewingRayKind(CheckKind):

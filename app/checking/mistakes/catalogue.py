@@ -14,7 +14,7 @@ from pathlib import Path
 
 import msgspec
 
-from lucida.app.checking.mistakes.program import CodeLine, Mistake, Swaps
+from .program import CodeLine, Mistake, Swaps
 
 FOLDER = Path(__file__).parent / "catalogue"
 

@@ -10,14 +10,15 @@ import numpy as np
 
 from lucida.app.checking.kinds.kind import Flags
 from lucida.app.checking.kinds.viewing_ray import are_right
-from lucida.app.checking.mistakes.program import Mistakes, Program
-from lucida.app.checking.mistakes.programs import program_of
-from lucida.app.checking.mistakes.trials import candidates, trials_of
 from lucida.app.checking.own_words import AS_IF, in_the_tasks_words
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.state.app_state import is_orthonormal
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
+
+from .program import Mistakes, Program
+from .programs import program_of
+from .trials import candidates, trials_of
 
 Cases = Sequence[CheckCase]
 

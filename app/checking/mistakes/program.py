@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from lucida.app.checking.mistakes.vectors import FUNCTIONS
 from lucida.app.ui.explaining.symbols import program, words
+
+from .vectors import FUNCTIONS
 
 Swaps = tuple[tuple[str, str], ...]
 

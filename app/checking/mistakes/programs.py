@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from lucida.app.checking.mistakes.catalogue import part
-from lucida.app.checking.mistakes.program import Program
-from lucida.app.checking.mistakes.rays import RayTask, ray_program, ray_task, ray_values
-from lucida.app.checking.mistakes.vectors import SHAPES
 from lucida.app.checking.tasks import CheckCase, CheckTask
+
+from .catalogue import part
+from .program import Program
+from .rays import RayTask, ray_program, ray_task, ray_values
+from .vectors import SHAPES
 
 
 def program_of(task: CheckTask) -> Program:

@@ -22,13 +22,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lucida.app.checking.conventions import camera_words, pixel_words
-from lucida.app.checking.mistakes.catalogue import Part, part
-from lucida.app.checking.mistakes.program import Mistake, Program
 from lucida.app.checking.tasks import CheckTask
 from lucida.app.checking.words import PARTS, SAME
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
+
+from .catalogue import Part, part
+from .program import Mistake, Program
 
 Floats = NDArray[np.float64]
 

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.app.checking.kinds.viewing_ray import largest_number
-from lucida.app.checking.mistakes.program import Mistakes, Program
-from lucida.app.checking.mistakes.programs import case_values, known_values
-from lucida.app.checking.mistakes.rays import ray_task, run_rays
 from lucida.app.checking.tasks import CheckCase, CheckTask
+
+from .program import Mistakes, Program
+from .programs import case_values, known_values
+from .rays import ray_task, run_rays
 
 Floats = NDArray[np.float64]
 Errors = tuple[float, float]  # of the given answers, and of the correct ones

@@ -11,8 +11,11 @@ import time
 from collections.abc import Sequence
 from typing import Any
 
-from lucida.app.checking.running.account import Account
-from lucida.app.checking.running.program import (
+from lucida.app.checking.tasks import Call, Failure, Limits, Run
+from lucida.renderer.system.errors import LucidaError, one_line, shortened
+
+from .account import Account
+from .program import (
     ProgramOverError,
     ProgramStudent,
     StudentProgram,
@@ -20,8 +23,6 @@ from lucida.app.checking.running.program import (
     told_over,
     whole_number,
 )
-from lucida.app.checking.tasks import Call, Failure, Limits, Run
-from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 
 class CommandStudent(ProgramStudent):

@@ -10,8 +10,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any, Self
 
-from lucida.app.checking.running.account import Account
-from lucida.app.checking.running.program import (
+from lucida.app.checking.tasks import Call, Failure, Limits, Run
+from lucida.renderer.files.reading import read_file
+from lucida.renderer.system.child import interpreter
+from lucida.renderer.system.errors import LucidaError, one_line, shortened
+
+from .account import Account
+from .program import (
     ProgramOverError,
     ProgramStudent,
     StudentProgram,
@@ -19,10 +24,6 @@ from lucida.app.checking.running.program import (
     told_over,
     whole_number,
 )
-from lucida.app.checking.tasks import Call, Failure, Limits, Run
-from lucida.renderer.files.reading import read_file
-from lucida.renderer.system.child import interpreter
-from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 _LONGEST_FILE = 4 << 20  # bytes
 _LONGEST_TEXT = 300  # of a message

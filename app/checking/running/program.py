@@ -17,10 +17,11 @@ from pathlib import Path
 from typing import Literal
 
 from lucida.app.checking.kinds.kind import text_of
-from lucida.app.checking.running.account import Account
 from lucida.app.checking.tasks import Call, Kind, Limits, Run
 from lucida.app.ui.explaining.symbols import arguments
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
+
+from .account import Account
 
 _MOST_ANSWERS = 1 << 28  # bytes of one request's answers
 _LARGEST_FILE = 1 << 26  # bytes; its printed text is a file, too

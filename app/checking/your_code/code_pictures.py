@@ -14,7 +14,6 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from lucida.app.checking.your_code.model import CodeRays, CodeReport, canvas_pixel
 from lucida.app.images.changed_pixels import changed_pixels, difference_picture
 from lucida.app.images.ray_pictures import RayPainter, RayPictures
 from lucida.app.instruments.mistakes.model import told_difference
@@ -29,6 +28,8 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import Memo
+
+from .model import CodeRays, CodeReport, canvas_pixel
 
 Bytes = NDArray[np.uint8]
 SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour

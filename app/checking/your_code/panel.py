@@ -15,9 +15,6 @@ from lucida.app.checking.mistakes.diagnosis import READ
 from lucida.app.checking.own_words import returned, signature
 from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.your_code.model import RAY, CodeReport
-from lucida.app.checking.your_code.runs import CodeRuns
-from lucida.app.checking.your_code.words import ToldLine, ToldRole, verdict_of
 from lucida.app.instruments.stepper.panel import CANVASES
 from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
@@ -29,6 +26,10 @@ from lucida.app.ui.rows import button_width, follow, tip
 from lucida.app.ui.theme import Fonts
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import one_line
+
+from .model import RAY, CodeReport
+from .runs import CodeRuns
+from .words import ToldLine, ToldRole, verdict_of
 
 CodeWish = Literal["", "open", "starter", "run", "stop", "edit"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is

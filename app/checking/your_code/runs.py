@@ -17,7 +17,10 @@ from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.running.file import FileStudent, NotRunnableError
 from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask, Failure, Limits
-from lucida.app.checking.your_code.model import (
+from lucida.app.ui.background import Background, Outcome
+from lucida.renderer.system.errors import LucidaError, describe
+
+from .model import (
     RAY,
     CodeContent,
     CodeQuestion,
@@ -27,8 +30,6 @@ from lucida.app.checking.your_code.model import (
     ray_task_for,
     rays_of,
 )
-from lucida.app.ui.background import Background, Outcome
-from lucida.renderer.system.errors import LucidaError, describe
 
 LIMITS = Limits(seconds=10.0)
 OVERTAKEN_S = 0.3  # a run of an older question is ended if it takes longer

@@ -17,19 +17,6 @@ from imgui_bundle import imgui
 
 from lucida.app.checking.own_words import starter
 from lucida.app.checking.task_file import BUILTIN
-from lucida.app.checking.your_code import panel
-from lucida.app.checking.your_code.code_pictures import CodePictures, PicturesShown, marked_pixel
-from lucida.app.checking.your_code.editor import open_in_editor
-from lucida.app.checking.your_code.model import (
-    RAY,
-    CodeContent,
-    CodeQuestion,
-    CodeRays,
-    CodeReport,
-)
-from lucida.app.checking.your_code.panel import CodeWish
-from lucida.app.checking.your_code.runs import CodeRuns
-from lucida.app.checking.your_code.words import ToldLine, told_of
 from lucida.app.instruments.outside import answers
 from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extent import end_parameter
@@ -47,6 +34,20 @@ from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.file_dependencies import stamp
 from lucida.renderer.system.memo import Memo
+
+from . import panel
+from .code_pictures import CodePictures, PicturesShown, marked_pixel
+from .editor import open_in_editor
+from .model import (
+    RAY,
+    CodeContent,
+    CodeQuestion,
+    CodeRays,
+    CodeReport,
+)
+from .panel import CodeWish
+from .runs import CodeRuns
+from .words import ToldLine, told_of
 
 YOUR_CODE = "Your-code"
 STARTER = "rays.py"

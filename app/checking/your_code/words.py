@@ -15,9 +15,10 @@ from lucida.app.checking.mistakes.diagnosis import READ
 from lucida.app.checking.reports import VERDICTS
 from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.your_code.model import CodeRays, CodeReport
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.system.errors import visible
+
+from .model import CodeRays, CodeReport
 
 ToldRole = Literal["good", "bad", "text", "code", "dim", "read"]
 HALTED = "It is not run again by itself"

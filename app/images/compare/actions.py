@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from lucida.app.images.compare import comparing
 from lucida.app.state.options.compare import CompareMode
 from lucida.app.ui.action import Action, choosing
 from lucida.app.ui.host import Host
+
+from . import comparing
 
 MENU = "Image/Compare"
 

@@ -6,8 +6,6 @@ from dataclasses import replace
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.images.compare import comparing
-from lucida.app.images.compare.comparing import MODES
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options.compare import CompareOptions
 from lucida.app.ui import theme
@@ -16,6 +14,9 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.lettering import fitting_words
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.renderer.compare.raster_and_ray import LABEL_COLORS, Comparison
+
+from . import comparing
+from .comparing import MODES
 
 SWATCH = int(imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_drop)
 

@@ -12,9 +12,6 @@ from dataclasses import replace
 import moderngl
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.images.compare import comparing, panel
-from lucida.app.images.compare.actions import COMPARING
-from lucida.app.images.compare.pictures import Bytes, marked_picture
 from lucida.app.images.pair.pane import Pane
 from lucida.app.images.pair.view import ImageView, RasterView
 from lucida.app.images.placement import Placement
@@ -33,6 +30,10 @@ from lucida.renderer.compare.raster_and_ray import Comparison
 from lucida.renderer.images.frame import stored
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
+
+from . import comparing, panel
+from .actions import COMPARING
+from .pictures import Bytes, marked_picture
 
 NAME = "Compare"
 KEY_STEP = 0.01  # of the divider, by an arrow key

@@ -15,12 +15,13 @@ from lucida.app.images.imaging import (
     with_magnification,
     with_resolution,
 )
-from lucida.app.images.pair.boxes import ask_pixel, ask_resolution
 from lucida.app.images.placement import magnification_text, step_from
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import MAGNIFICATIONS, RESOLUTIONS, SAMPLES
 from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
+
+from .boxes import ask_pixel, ask_resolution
 
 RESOLUTION, MAGNIFY = "Image/Resolution", "Image/Magnification"
 COUNTING = "Image/Rows and columns"

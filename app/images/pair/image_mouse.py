@@ -19,7 +19,6 @@ from dataclasses import dataclass, replace
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.images.pair.camera_drag import HALF_TURN, CameraDrag, drag_kind
 from lucida.app.images.placement import panned, step_from, zoomed_at
 from lucida.app.images.screen import Screen
 from lucida.app.state.app_state import AppState
@@ -28,6 +27,8 @@ from lucida.app.ui.host import Host
 from lucida.renderer.camera import navigation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
+
+from .camera_drag import HALF_TURN, CameraDrag, drag_kind
 
 STILL_PX = 3.0  # a mouse that has moved less is still where it was
 

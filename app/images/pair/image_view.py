@@ -9,11 +9,6 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.cameras.remedies import helped, remedy_for
 from lucida.app.images.marking import Anchor, followed
-from lucida.app.images.pair.dark_note import dark_note
-from lucida.app.images.pair.image_mouse import ImageMouse
-from lucida.app.images.pair.marks import claim_keys, walked
-from lucida.app.images.pair.pane import Pane, draw_pane
-from lucida.app.images.pair.rulers import ruler_sizes
 from lucida.app.images.placement import Placement, shown_pixel
 from lucida.app.images.screen import Screen, available_px
 from lucida.app.state.app_state import AppState
@@ -24,6 +19,12 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.system.errors import LucidaError
+
+from .dark_note import dark_note
+from .image_mouse import ImageMouse
+from .marks import claim_keys, walked
+from .pane import Pane, draw_pane
+from .rulers import ruler_sizes
 
 PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
 NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under the mouse too

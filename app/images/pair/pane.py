@@ -7,10 +7,6 @@ from dataclasses import dataclass
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.images.pair.marks import draw_hovered, draw_marked, draw_pin
-from lucida.app.images.pair.overlay import draw_legend, draw_note
-from lucida.app.images.pair.pixelgrid import Values, draw_pixel_grid
-from lucida.app.images.pair.rulers import draw_rulers
 from lucida.app.images.placement import Placement
 from lucida.app.images.screen import Box, Screen
 from lucida.app.images.shown import Picture
@@ -20,6 +16,11 @@ from lucida.app.ui import theme
 from lucida.app.ui.host import Host
 from lucida.renderer.images.frame import stored
 from lucida.renderer.system.errors import describe
+
+from .marks import draw_hovered, draw_marked, draw_pin
+from .overlay import draw_legend, draw_note
+from .pixelgrid import Values, draw_pixel_grid
+from .rulers import draw_rulers
 
 # Returns the visible part of a state's image in a window; None for no image.
 Drawn = Callable[[AppState, Placement], Picture | None]

@@ -11,13 +11,14 @@ from collections.abc import Callable
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from lucida.app.images.pair.rulers import ADVANCE
 from lucida.app.images.pixelvalues import Depths, is_dark, line_count, shown_bytes, value_lines
 from lucida.app.images.placement import RULED_FROM
 from lucida.app.images.screen import Screen
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
 from lucida.renderer.raster.targets import Region
+
+from .rulers import ADVANCE
 
 MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
 MOST_TEXT = 64.0

@@ -9,12 +9,6 @@ from typing import ClassVar
 import moderngl
 from imgui_bundle import imgui
 
-from lucida.app.images.pair.actions import IMAGE, MOUSE
-from lucida.app.images.pair.footprint import draw_footprint, footprint
-from lucida.app.images.pair.image_view import ImageView, Linked
-from lucida.app.images.pair.pane import Pane
-from lucida.app.images.pair.straight_lines import draw_grid
-from lucida.app.images.pair.vanishing import draw_parallels
 from lucida.app.images.photograph.actions import PHOTOGRAPH
 from lucida.app.images.photograph.layer import PhotographLayer
 from lucida.app.images.screen import Screen
@@ -23,6 +17,13 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.uploads import Uploads
 from lucida.renderer.system.memo import Memo
+
+from .actions import IMAGE, MOUSE
+from .footprint import draw_footprint, footprint
+from .image_view import ImageView, Linked
+from .pane import Pane
+from .straight_lines import draw_grid
+from .vanishing import draw_parallels
 
 RASTER, RAY = "Raster", "Ray"
 

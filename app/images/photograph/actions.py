@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from lucida.app.images.photograph.model import closed
 from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
+
+from .model import closed
 
 MENU = "Image/Photograph"
 OPACITIES = (0.25, 0.5, 0.75, 1.0)  # means of what the screen shows (sRGB), not of light

@@ -7,14 +7,15 @@ from pathlib import Path
 from imgui_bundle import ImVec2, ImVec4, imgui
 from numpy.typing import NDArray
 
-from lucida.app.images.photograph.model import covered, letterboxed, path_of, pixels_of
-from lucida.app.images.photograph.reading import DecodedPhotograph, Size, decoded
 from lucida.app.images.screen import Screen
 from lucida.app.ui import theme
 from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
 from lucida.app.ui.uploads import Uploads
 from lucida.renderer.system.errors import describe
+
+from .model import covered, letterboxed, path_of, pixels_of
+from .reading import DecodedPhotograph, Size, decoded
 
 Asked = tuple[Path, Size]  # the file, and the number of pixels that the photograph covers
 

@@ -11,10 +11,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from lucida.app.images.photograph.reading import Size
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored, stored
 from lucida.renderer.camera.camera import Camera
+
+from .reading import Size
 
 Parts = tuple[float, float, float, float]  # left, top, right, bottom: of an image's width, height
 WHOLE: Parts = (0.0, 0.0, 1.0, 1.0)

@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui, implot
 
-from lucida.app.instruments.costs.recorded import COSTS, Cost, Unit
 from lucida.app.ui import theme
+
+from .recorded import COSTS, Cost, Unit
 
 MARGIN = 1.5  # around the least and the most on an axis
 AROUND_EM = 5.0  # above and below what is plotted: title, numbers, name of the axis

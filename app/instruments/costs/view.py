@@ -7,13 +7,14 @@ from dataclasses import replace
 import moderngl
 from imgui_bundle import ImVec2, imgui, implot
 
-from lucida.app.instruments.costs import plots
-from lucida.app.instruments.costs.recorded import COSTS, GROWTH
 from lucida.app.ui import theme
 from lucida.app.ui.checks import radio_button
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.rows import follow
+
+from . import plots
+from .recorded import COSTS, GROWTH
 
 COSTS_VIEW = "Costs"
 

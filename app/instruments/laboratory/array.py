@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.sheet import (
+from lucida.app.instruments.outside.figure import Color, Figure
+
+from .page import Page
+from .sheet import (
     BLACK,
     Point,
     Sheet,
@@ -14,7 +16,6 @@ from lucida.app.instruments.laboratory.sheet import (
     reached,
     rectangle,
 )
-from lucida.app.instruments.outside.figure import Color, Figure
 
 ROWS, COLUMNS = 3, 4
 LIT, ORANGE = (1, 2), (1.0, 0.6, 0.0)  # row and column from 0

@@ -6,8 +6,11 @@ import math
 
 import numpy as np
 
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.sheet import (
+from lucida.app.instruments.outside.figure import Figure
+from lucida.renderer.camera.checks import Floats
+
+from .page import Page
+from .sheet import (
     BLACK,
     WHITE,
     YELLOW,
@@ -19,8 +22,6 @@ from lucida.app.instruments.laboratory.sheet import (
     rectangle,
     rounded,
 )
-from lucida.app.instruments.outside.figure import Figure
-from lucida.renderer.camera.checks import Floats
 
 ROOM, STEP = (15.5, 9.6), (16.0, 12.0)  # of each drawing, and from one to the next
 FINE = 96  # points of outlines that turn into each other

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.sheet import Sheet, between, mixed, reached
 from lucida.app.instruments.outside.figure import Figure
 from lucida.renderer.camera.checks import Floats
+
+from .page import Page
+from .sheet import Sheet, between, mixed, reached
 
 COLUMNS, ROWS = 4, 3
 # On the sheet: the corner of pixel (1, 1), and the steps to the next column and the next row.

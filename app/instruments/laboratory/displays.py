@@ -13,8 +13,11 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.sheet import (
+from lucida.app.instruments.outside.figure import Color, Figure
+from lucida.renderer.images.display import to_srgb8
+
+from .page import Page
+from .sheet import (
     LIGHTS,
     WALL,
     YELLOW,
@@ -24,8 +27,6 @@ from lucida.app.instruments.laboratory.sheet import (
     rectangle,
     rounded,
 )
-from lucida.app.instruments.outside.figure import Color, Figure
-from lucida.renderer.images.display import to_srgb8
 
 Floats = NDArray[np.float32]
 Place = tuple[float, float, float, float, float]  # middle x, y; half the width, height; rounding

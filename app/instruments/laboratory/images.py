@@ -7,9 +7,13 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.laboratory.kinds import COLOR, FLOAT, KINDS, Kind
-from lucida.app.instruments.laboratory.page import Page, is_wide
-from lucida.app.instruments.laboratory.sheet import (
+from lucida.app.instruments.outside.figure import Figure
+from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.images.display import Bytes, encode_srgb, to_srgb8
+
+from .kinds import COLOR, FLOAT, KINDS, Kind
+from .page import Page, is_wide
+from .sheet import (
     BLACK,
     LIGHTS,
     YELLOW,
@@ -19,10 +23,7 @@ from lucida.app.instruments.laboratory.sheet import (
     reached,
     rectangle,
 )
-from lucida.app.instruments.laboratory.stored import kept
-from lucida.app.instruments.outside.figure import Figure
-from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.images.display import Bytes, encode_srgb, to_srgb8
+from .stored import kept
 
 # The shape of images: width and height. Two side by side are square.
 SHAPE, SQUARE = (3, 2), (1, 1)

@@ -6,8 +6,11 @@ from itertools import combinations
 
 import numpy as np
 
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.sheet import (
+from lucida.app.instruments.outside.figure import Color, Figure
+from lucida.renderer.camera.checks import Floats
+
+from .page import Page
+from .sheet import (
     BLACK,
     LIGHTS,
     WALL,
@@ -17,8 +20,6 @@ from lucida.app.instruments.laboratory.sheet import (
     reached,
     rectangle,
 )
-from lucida.app.instruments.outside.figure import Color, Figure
-from lucida.renderer.camera.checks import Floats
 
 # Where red, green and blue stand when they are moved apart by 1: an upright triangle.
 APART = ((0.0, -1.0), (-0.866, 0.5), (0.866, 0.5))

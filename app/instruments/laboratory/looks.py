@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from imgui_bundle import ImVec4
 
-from lucida.app.instruments.laboratory.sheet import Look
 from lucida.app.instruments.outside.figure import Color
 from lucida.app.ui import palettes, theme
+
+from .sheet import Look
 
 
 def look_of(palette: palettes.Palette) -> Look:

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lucida.app.instruments.laboratory.sheet import Look, Point, Sheet
 from lucida.app.state.options.laboratory import LaboratoryOptions
 from lucida.renderer.camera.image_plane import Size
+
+from .sheet import Look, Point, Sheet
 
 Image = NDArray[np.float32]
 

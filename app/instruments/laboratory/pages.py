@@ -5,17 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from lucida.app.instruments.laboratory import images
-from lucida.app.instruments.laboratory.array import array
-from lucida.app.instruments.laboratory.devices import devices
-from lucida.app.instruments.laboratory.dimension import dimension
-from lucida.app.instruments.laboratory.displays import displays
-from lucida.app.instruments.laboratory.light import projectors
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.ruler import ruler
-from lucida.app.instruments.laboratory.shapes import raster_and_vector
-from lucida.app.instruments.laboratory.storage import storage
 from lucida.app.instruments.outside.figure import Figure
+
+from . import images
+from .array import array
+from .devices import devices
+from .dimension import dimension
+from .displays import displays
+from .light import projectors
+from .page import Page
+from .ruler import ruler
+from .shapes import raster_and_vector
+from .storage import storage
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.sheet import (
+from lucida.app.instruments.outside.figure import Color, Figure
+from lucida.renderer.camera.checks import Floats
+
+from .page import Page
+from .sheet import (
     BLACK,
     YELLOW,
     Point,
@@ -14,8 +17,6 @@ from lucida.app.instruments.laboratory.sheet import (
     mixed,
     reached,
 )
-from lucida.app.instruments.outside.figure import Color, Figure
-from lucida.renderer.camera.checks import Floats
 
 COUNT = 10  # pixels in a row, and in a column
 PIXEL = (3, 7)  # row and column, from 1

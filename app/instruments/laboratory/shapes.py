@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw
 
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.sheet import Look, Sheet, between, circle, rectangle
 from lucida.app.instruments.outside.figure import WHITE, Color, Figure, Line, Polygon
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import Bytes
+
+from .page import Page
+from .sheet import Look, Sheet, between, circle, rectangle
 
 SIDE_PX, PIXELS = 512, 128  # of the drawing, and of its raster image
 SAMPLES = 4  # a side of a pixel

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from lucida.app.instruments.laboratory.kinds import KINDS, LECTURE_SIZE
-from lucida.app.instruments.laboratory.page import Page
-from lucida.app.instruments.laboratory.sheet import reached, rectangle
 from lucida.app.instruments.outside.figure import Figure
+
+from .kinds import KINDS, LECTURE_SIZE
+from .page import Page
+from .sheet import reached, rectangle
 
 LONGEST, LEFT, STEP = 12.0, 14.4, 4.7
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.laboratory.kinds import BITMAP, COLOR, FLOAT, Kind
 from lucida.renderer.images.display import Bytes, from_srgb, luminance, to_srgb8
 from lucida.renderer.images.files import HALF
+
+from .kinds import BITMAP, COLOR, FLOAT, Kind
 
 
 def kept(

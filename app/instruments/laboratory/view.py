@@ -12,11 +12,6 @@ from imgui_bundle import ImVec2, imgui
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.screen import available_px
 from lucida.app.images.window_rasterizer import WindowRasterizer
-from lucida.app.instruments.laboratory.images import boxes, image_size
-from lucida.app.instruments.laboratory.looks import look_of
-from lucida.app.instruments.laboratory.page import Image, Page
-from lucida.app.instruments.laboratory.pages import PAGES, drawn
-from lucida.app.instruments.laboratory.sheet import Point, Sheet
 from lucida.app.instruments.outside.figure import Figure
 from lucida.app.instruments.outside.painting import Painter
 from lucida.app.state.bounds import range_of
@@ -32,6 +27,12 @@ from lucida.app.ui.uploads import Uploads
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import Memo
+
+from .images import boxes, image_size
+from .looks import look_of
+from .page import Image, Page
+from .pages import PAGES, drawn
+from .sheet import Point, Sheet
 
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60

@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.checking.mistakes.program import Mistake, Mistakes, Program
-from lucida.app.instruments.mistakes import model
 from lucida.app.instruments.outside.paint import role_color
 from lucida.app.ui import theme
 from lucida.app.ui.areas import press_area
@@ -18,6 +17,8 @@ from lucida.app.ui.explaining import symbols
 from lucida.app.ui.formula import vector_colors
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.theme import Fonts
+
+from . import model
 
 LINE = 1.25  # a line's height, in parts of the type's
 INSET = 0.6  # left of the code, likewise

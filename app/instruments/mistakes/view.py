@@ -11,8 +11,6 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.images.changed_pixels import changed_pixels, difference_picture
 from lucida.app.images.ray_pictures import RayPictures
-from lucida.app.instruments.mistakes import model, panel
-from lucida.app.instruments.mistakes.model import Compared, Situation
 from lucida.app.instruments.outside.diagram import Item
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.second_camera import second_camera, second_ray
@@ -30,6 +28,9 @@ from lucida.app.ui.uploads import Uploads
 from lucida.renderer.images import to_srgb8
 from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import Memo
+
+from . import model, panel
+from .model import Compared, Situation
 
 MISTAKES = "Mistakes"
 STUDENTS = "student's"  # the name of the wrong picture, and of its camera in the outside view

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lucida.app.instruments.objects import editing
-from lucida.app.instruments.objects.choosing import chosen, everything, walked
 from lucida.app.state.app_state import AppState
 from lucida.app.ui.action import Action, choosing
 from lucida.app.ui.host import Host
 from lucida.renderer.editing import objects
 from lucida.renderer.system.errors import LucidaError
+
+from . import editing
+from .choosing import chosen, everything, walked
 
 MENU = "Scene"
 

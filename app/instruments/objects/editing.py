@@ -10,13 +10,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from lucida.app.instruments.objects.choosing import choose, chosen, unlocked
-from lucida.app.instruments.objects.placing import place_for
 from lucida.app.state.app_state import AppState
 from lucida.renderer.editing import objects
 from lucida.renderer.editing.changing import Item
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.scene.model import Scene
+
+from .choosing import choose, chosen, unlocked
+from .placing import place_for
 
 
 def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = None) -> AppState:

@@ -10,9 +10,6 @@ from dataclasses import replace
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.instruments.objects.choosing import chosen, picked, unlocked
-from lucida.app.instruments.objects.handles import Handles
-from lucida.app.instruments.objects.silhouette import Outline, outer, outlines_of
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.ui import theme
 from lucida.app.ui.guest import Click, ShownIn
@@ -21,6 +18,10 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.editing.changing import Item, ids_of
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.memo import Memo
+
+from .choosing import chosen, picked, unlocked
+from .handles import Handles
+from .silhouette import Outline, outer, outlines_of
 
 CHOSEN = theme.rgb("#ffa23a")
 CASING = theme.rgb("#0c0d0f", 0.7)

@@ -13,18 +13,6 @@ from typing import Any
 import msgspec
 from imgui_bundle import imgui
 
-from lucida.app.instruments.objects.choosing import chosen, rows_of
-from lucida.app.instruments.objects.editing import with_scene
-from lucida.app.instruments.objects.material_fields import material_lines
-from lucida.app.instruments.objects.outliner import SHOWN
-from lucida.app.instruments.objects.value_fields import (
-    Edits,
-    color_line,
-    light_lines,
-    number_line,
-    vector_line,
-    whole_line,
-)
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import checkbox
@@ -45,6 +33,19 @@ from lucida.renderer.scene.focus import Focus
 from lucida.renderer.scene.material import parse_color
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
+
+from .choosing import chosen, rows_of
+from .editing import with_scene
+from .material_fields import material_lines
+from .outliner import SHOWN
+from .value_fields import (
+    Edits,
+    color_line,
+    light_lines,
+    number_line,
+    vector_line,
+    whole_line,
+)
 
 COMMON = {*ObjectTable.__struct_fields__, *LightTable.__struct_fields__}
 PLACED = {"translate", "rotate_deg", "scale", "center", "position", "direction", "file"}

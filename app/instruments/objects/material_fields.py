@@ -10,12 +10,13 @@ from typing import Any
 
 from imgui_bundle import imgui
 
-from lucida.app.instruments.objects.value_fields import Edits, color_line, number_line
 from lucida.app.ui import rows, theme
 from lucida.app.ui.fields import Scale
 from lucida.renderer.editing.changing import Item, entry_of
 from lucida.renderer.editing.materials import set_material
 from lucida.renderer.scene.model import Scene
+
+from .value_fields import Edits, color_line, number_line
 
 SHININESS = Scale(1, 1000, logarithmic=True, least=1, most=1000)
 

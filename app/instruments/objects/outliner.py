@@ -9,9 +9,6 @@ from functools import lru_cache
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.instruments.objects import editing
-from lucida.app.instruments.objects.actions import ADDING, edit
-from lucida.app.instruments.objects.choosing import choose, choose_also, chosen, rows_of
 from lucida.app.ui import theme
 from lucida.app.ui.action import draw_entry
 from lucida.app.ui.checks import checkbox
@@ -21,6 +18,10 @@ from lucida.app.ui.rows import tip
 from lucida.renderer.editing.changing import Item
 from lucida.renderer.editing.outline import OutlineRow
 from lucida.renderer.scene.model import Scene
+
+from . import editing
+from .actions import ADDING, edit
+from .choosing import choose, choose_also, chosen, rows_of
 
 EMPTY = "The scene has no objects. Add one, or drop a model here."
 READ_ONLY = "This scene was made in Python, from meshes: it cannot be changed here."

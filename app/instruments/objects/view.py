@@ -8,15 +8,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lucida.app.images.pair.view import RasterView
-from lucida.app.instruments.objects.actions import CHOOSING, SCENE
-from lucida.app.instruments.objects.in_views import InViews
-from lucida.app.instruments.objects.inspector import Inspector, PanelSetting, inspector_panel
-from lucida.app.instruments.objects.outliner import outliner_panel
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.ui import layout
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.renderer.editing.changing import Item
+
+from .actions import CHOOSING, SCENE
+from .in_views import InViews
+from .inspector import Inspector, PanelSetting, inspector_panel
+from .outliner import outliner_panel
 
 OBJECTS, INSPECTOR = "Objects", "Inspector"
 

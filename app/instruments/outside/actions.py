@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from lucida.app.instruments.outside.tools import MENU
-from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.outside import STAGES
 from lucida.app.ui.action import Action, changing, choosing
+
+from .tools import MENU
+from .view import OutsideView
 
 BUNDLE = (4, 5)  # rows and columns of the bundle when it is switched on
 

@@ -9,9 +9,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from lucida.app.instruments.outside.diagram import Dot, Item, Label, Role, line, named_arrow
-from lucida.app.instruments.outside.second_camera import ROLE, GivenRay, second_ray
 from lucida.renderer.camera.checks import LARGEST, Floats
+
+from .diagram import Dot, Item, Label, Role, line, named_arrow
+from .second_camera import ROLE, GivenRay, second_ray
 
 LONGEST = 2.0  # of a direction that was given, in lengths of the correct one
 

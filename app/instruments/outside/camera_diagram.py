@@ -7,7 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lucida.app.instruments.outside.diagram import (
+from lucida.app.state.options.outside import OutsideOptions
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
+
+from .diagram import (
     Dot,
     Eye,
     Face,
@@ -21,7 +26,7 @@ from lucida.app.instruments.outside.diagram import (
     polyline,
     shares,
 )
-from lucida.app.instruments.outside.frustum import (
+from .frustum import (
     CURVE,
     MOST_GRID_LINES,
     border,
@@ -33,14 +38,10 @@ from lucida.app.instruments.outside.frustum import (
     plane_parameter,
     point_at,
 )
-from lucida.app.instruments.outside.lens_diagram import ideal_border, image_sphere, lens_pixel
-from lucida.app.instruments.outside.pixel_drawing import pixel_numbers, pixel_square
-from lucida.app.instruments.outside.ray_drawing import half_line, meetings, rays_to
-from lucida.app.instruments.outside.simple_camera import simple_camera
-from lucida.app.state.options.outside import OutsideOptions
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats
-from lucida.renderer.camera.image_plane import Size
+from .lens_diagram import ideal_border, image_sphere, lens_pixel
+from .pixel_drawing import pixel_numbers, pixel_square
+from .ray_drawing import half_line, meetings, rays_to
+from .simple_camera import simple_camera
 
 RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
 ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w

@@ -10,8 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.outside.diagram import Segments
 from lucida.renderer.camera.checks import Floats
+
+from .diagram import Segments
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,11 +7,12 @@ from typing import Any
 import moderngl
 import numpy as np
 
-from lucida.app.instruments.outside.cloud import Cloud
-from lucida.app.instruments.outside.paint import line_color
-from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.ui.contrast import Rgb
 from lucida.renderer.raster.cloud import POINT, CloudLook, CloudPicture, CloudRenderer, Rgba
+
+from .cloud import Cloud
+from .paint import line_color
+from .screen import OutsideScreen
 
 NEAREST = 1e-3  # of the cloud's reach: what is nearer to the outside camera's eye is not drawn
 CASING_PX = 0.9  # on each side of a line, in widths of a line

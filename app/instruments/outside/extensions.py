@@ -7,12 +7,13 @@ from typing import NamedTuple
 
 import moderngl
 
-from lucida.app.instruments.outside.cloud import Cloud
-from lucida.app.instruments.outside.diagram import Item
-from lucida.app.instruments.outside.looking import NOTHING
-from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.checks import Floats
+
+from .cloud import Cloud
+from .diagram import Item
+from .looking import NOTHING
+from .mouse import Scope
 
 
 class Extension(NamedTuple):

@@ -8,10 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from lucida.app.instruments.outside.frustum import border, has_plane, image_point, plane_corners
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import LARGEST, Floats, three
 from lucida.renderer.system.errors import LucidaError
+
+from .frustum import border, has_plane, image_point, plane_corners
 
 FOV_Y_DEG = 50.0
 LARGE_REACH = 30.0  # in whose picture an arrow of length 1 is short

@@ -12,14 +12,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.outside.diagram import Role, runs
-from lucida.app.instruments.outside.placing import Box, LabelPlacer
-from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
-from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import Bytes
 from lucida.renderer.raster.overlay import BACK_LIGHT, Plane
+
+from .diagram import Role, runs
+from .placing import Box, LabelPlacer
+from .projected import Primitive, Shape, Strokes, Text
+from .screen import OutsideScreen
 
 Depths = NDArray[np.float32]
 Bools = NDArray[np.bool_]

@@ -11,24 +11,25 @@ from imgui_bundle import ImVec2
 from lucida.app.images.renderers import look_of
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.window_rasterizer import WindowRasterizer
-from lucida.app.instruments.outside.figure import (
+from lucida.app.ui.contrast import Rgb
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.images.display import Bytes, to_srgb8
+
+from .figure import (
     Depths,
     Figure,
     figure_parts,
     with_picture,
 )
-from lucida.app.instruments.outside.ground import SHIFTS
-from lucida.app.instruments.outside.growing import grown_diagram
-from lucida.app.instruments.outside.looking import nearest, scope_of
-from lucida.app.instruments.outside.mouse import Area
-from lucida.app.instruments.outside.paint import figure_color
-from lucida.app.instruments.outside.projected import project
-from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
-from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.ui.contrast import Rgb
-from lucida.app.ui.host import Host
-from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.images.display import Bytes, to_srgb8
+from .ground import SHIFTS
+from .growing import grown_diagram
+from .looking import nearest, scope_of
+from .mouse import Area
+from .paint import figure_color
+from .projected import project
+from .screen import OutsideScreen, image_plane
+from .view import OutsideView
 
 PLACE = "Figure"  # see Rasterizer.draw
 GRID_PARTS = 16  # of a side of the image plane

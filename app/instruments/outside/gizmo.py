@@ -14,9 +14,6 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui, imguizmo
 from numpy.typing import ArrayLike
 
-from lucida.app.instruments.outside.frustum import plane_corners
-from lucida.app.instruments.outside.mouse import Scope
-from lucida.app.instruments.outside.tint import Rgb8, handle_colors, hide_text, recolor
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
 from lucida.app.ui.contrast import Rgb
@@ -24,6 +21,10 @@ from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, Vector, three, volume
 from lucida.renderer.system.errors import LucidaError
+
+from .frustum import plane_corners
+from .mouse import Scope
+from .tint import Rgb8, handle_colors, hide_text, recolor
 
 gizmo = imguizmo.im_guizmo
 OPERATIONS = {"move": gizmo.OPERATION.translate, "distance": gizmo.OPERATION.translate_z}

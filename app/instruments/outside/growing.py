@@ -16,8 +16,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lucida.app.instruments.outside.camera_diagram import Content, diagram, plane_items
-from lucida.app.instruments.outside.diagram import (
+from lucida.app.state.options.outside import STAGES
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.explaining.notation import number, text_tuple
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats, three
+
+from .camera_diagram import Content, diagram, plane_items
+from .diagram import (
     Arrow,
     Dot,
     Item,
@@ -27,14 +33,9 @@ from lucida.app.instruments.outside.diagram import (
     line,
     term,
 )
-from lucida.app.instruments.outside.frustum import image_point, on_ray
-from lucida.app.instruments.outside.pixel_drawing import pixel_square
-from lucida.app.instruments.outside.simple_camera import simple_ray
-from lucida.app.state.options.outside import STAGES
-from lucida.app.state.options.shared import Pixel
-from lucida.app.ui.explaining.notation import number, text_tuple
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats, three
+from .frustum import image_point, on_ray
+from .pixel_drawing import pixel_square
+from .simple_camera import simple_ray
 
 GROWS = 0.7  # of a stage's time; then it rests, for the class to look
 ENDS = (r"\text{origin}", r"\text{direction}")  # a ray's, as a lecture may write them

@@ -6,9 +6,10 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.ui.guest import Click, Guest, ShownIn
 from lucida.app.ui.host import Host
+
+from .mouse import Scope
 
 
 class Hosted:

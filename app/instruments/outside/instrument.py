@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from lucida.app.instruments.outside.actions import OUTSIDE
-from lucida.app.instruments.outside.view import OutsideView
+from .actions import OUTSIDE
+from .view import OutsideView
 
 
 class Outside(OutsideView):

@@ -6,18 +6,19 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.instruments.outside.diagram import Dot, Item, Label, Segments, line, polyline
-from lucida.app.instruments.outside.frustum import (
+from lucida.app.state.options.shared import Pixel
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
+
+from .diagram import Dot, Item, Label, Segments, line, polyline
+from .frustum import (
     border,
     grid,
     has_plane,
     ideal_point,
     image_point,
 )
-from lucida.app.instruments.outside.pixel_drawing import pixel_square
-from lucida.app.state.options.shared import Pixel
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.image_plane import Size
+from .pixel_drawing import pixel_square
 
 SPHERE_PARTS = 12  # of a side of the image on a sphere, between its lines
 APART_PX = 22.0  # a pixel and its ideal point are named if they are farther apart on the screen

@@ -14,17 +14,6 @@ import numpy as np
 from imgui_bundle import ImVec2
 
 from lucida.app.images.ray_pictures import RayPainter, RayPictures
-from lucida.app.instruments.outside.diagram import RayEnd
-from lucida.app.instruments.outside.extent import (
-    around,
-    arrow_length,
-    framed,
-    outside_camera,
-    way_of,
-)
-from lucida.app.instruments.outside.frustum import bundle_pixels
-from lucida.app.instruments.outside.mouse import Area, Scope
-from lucida.app.instruments.outside.screen import NEAREST, OutsideScreen
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
@@ -34,6 +23,18 @@ from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size, has_pixel
 from lucida.renderer.camera.navigation import depth_of, orbited
 from lucida.renderer.system.memo import Memo, same
+
+from .diagram import RayEnd
+from .extent import (
+    around,
+    arrow_length,
+    framed,
+    outside_camera,
+    way_of,
+)
+from .frustum import bundle_pixels
+from .mouse import Area, Scope
+from .screen import NEAREST, OutsideScreen
 
 NOTHING = np.zeros((0, 3))
 LETTER_PX = 26.0  # round what is framed, for letters

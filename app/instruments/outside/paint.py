@@ -12,9 +12,6 @@ from itertools import groupby
 import numpy as np
 from imgui_bundle import ImVec4
 
-from lucida.app.instruments.outside.diagram import Role, Segments
-from lucida.app.instruments.outside.figure import Color
-from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.contrast import LEGIBLE, Rgb
 from lucida.renderer.camera.checks import Vector
@@ -29,6 +26,10 @@ from lucida.renderer.raster.lines import (
     SEGMENT,
     Layer,
 )
+
+from .diagram import Role, Segments
+from .figure import Color
+from .projected import Primitive, Shape, Strokes, Text
 
 DARK_GROUND = 0.35  # the lightest channel of a scene's dark background
 RIM: Rgb = (0.19, 0.19, 0.19)  # that of a label over white; others are darker

@@ -8,8 +8,12 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from imgui_bundle.imgui import ImVec2Like
 
-from lucida.app.instruments.outside.diagram import runs
-from lucida.app.instruments.outside.figure import (
+from lucida.app.ui.theme import Fonts, framebuffer_scale
+from lucida.app.ui.uploads import Uploads
+from lucida.renderer.camera.checks import Floats
+
+from .diagram import runs
+from .figure import (
     RIM,
     WHITE,
     Color,
@@ -20,9 +24,6 @@ from lucida.app.instruments.outside.figure import (
     Polygon,
     dashes,
 )
-from lucida.app.ui.theme import Fonts, framebuffer_scale
-from lucida.app.ui.uploads import Uploads
-from lucida.renderer.camera.checks import Floats
 
 Point = tuple[float, float]
 Box = tuple[Point, Point]  # upper left and lower right corner

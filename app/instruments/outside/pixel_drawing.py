@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from lucida.app.instruments.outside.diagram import Face, Item, Label, Role, Segments, polyline
-from lucida.app.instruments.outside.frustum import image_point, pixel_corners
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
+
+from .diagram import Face, Item, Label, Role, Segments, polyline
+from .frustum import image_point, pixel_corners
 
 MOST_NUMBERED = 12  # rows or columns that are all numbered
 

@@ -14,10 +14,6 @@ from typing import Literal
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Label, line
-from lucida.app.instruments.outside.frustum import has_plane, image_point, on_plane, plane_corners
-from lucida.app.instruments.outside.mouse import Scope
-from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
 from lucida.renderer.camera.camera import Camera
@@ -26,6 +22,11 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.memo import Memo
+
+from .diagram import Arrow, Dot, Item, Label, line
+from .frustum import has_plane, image_point, on_plane, plane_corners
+from .mouse import Scope
+from .screen import OutsideScreen
 
 Part = Literal["grid", "corner", "point"]
 

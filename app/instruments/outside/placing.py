@@ -13,8 +13,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.outside.projected import Primitive, Shape, Strokes, Text
 from lucida.renderer.camera.checks import Floats
+
+from .projected import Primitive, Shape, Strokes, Text
 
 Spot = tuple[float, float]
 Sums = NDArray[np.float32]

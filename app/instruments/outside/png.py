@@ -10,8 +10,11 @@ import imgui_bundle
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from lucida.app.instruments.outside.diagram import runs
-from lucida.app.instruments.outside.figure import (
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.images.display import Bytes
+
+from .diagram import runs
+from .figure import (
     RIM,
     WHITE,
     Color,
@@ -22,9 +25,7 @@ from lucida.app.instruments.outside.figure import (
     Polygon,
     dashes,
 )
-from lucida.app.instruments.outside.svg import BASELINE, casing_of
-from lucida.renderer.camera.checks import Floats
-from lucida.renderer.images.display import Bytes
+from .svg import BASELINE, casing_of
 
 FINE = 3  # samples a side of a pixel, for smooth edges
 FONTS = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto"

@@ -13,7 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lucida.app.instruments.outside.diagram import (
+from lucida.renderer.camera.checks import Floats, cross
+
+from .diagram import (
     Arrow,
     Dot,
     Eye,
@@ -24,8 +26,7 @@ from lucida.app.instruments.outside.diagram import (
     Segments,
     polyline,
 )
-from lucida.app.instruments.outside.screen import OutsideScreen, Seen
-from lucida.renderer.camera.checks import Floats, cross
+from .screen import OutsideScreen, Seen
 
 CIRCLE = 28  # corners of what is round
 HEAD = 4.2  # the least length of an arrow's head, in widths of its shaft

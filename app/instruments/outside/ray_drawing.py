@@ -8,7 +8,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from lucida.app.instruments.outside.diagram import (
+from lucida.app.state.options.outside import Point
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.explaining.notation import number
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
+
+from .diagram import (
     Dot,
     Item,
     Label,
@@ -18,12 +24,7 @@ from lucida.app.instruments.outside.diagram import (
     shares,
     term,
 )
-from lucida.app.instruments.outside.frustum import on_ray, plane_parameter, point_at
-from lucida.app.state.options.outside import Point
-from lucida.app.state.options.shared import Pixel
-from lucida.app.ui.explaining.notation import number
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.image_plane import Size
+from .frustum import on_ray, plane_parameter, point_at
 
 BEFORE, LAST = -1.2, 4.0  # the least and the largest t that is drawn of a line
 NAMED = 2.5  # the t at which the line's formula is written

@@ -10,7 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lucida.app.instruments.outside.diagram import (
+from lucida.renderer.camera.checks import Floats
+
+from .diagram import (
     Dot,
     Face,
     Item,
@@ -21,7 +23,6 @@ from lucida.app.instruments.outside.diagram import (
     line,
     polyline,
 )
-from lucida.renderer.camera.checks import Floats
 
 SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
 ROLE: Role = "other"

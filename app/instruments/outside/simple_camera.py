@@ -4,7 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.instruments.outside.diagram import (
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.explaining.notation import number, text_tuple
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
+
+from .diagram import (
     Dot,
     Eye,
     Item,
@@ -16,13 +22,8 @@ from lucida.app.instruments.outside.diagram import (
     shares,
     term,
 )
-from lucida.app.instruments.outside.frustum import image_point, plane_corners
-from lucida.app.instruments.outside.pixel_drawing import pixel_square
-from lucida.app.state.options.shared import Pixel
-from lucida.app.ui.explaining.notation import number, text_tuple
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats
-from lucida.renderer.camera.image_plane import Size
+from .frustum import image_point, plane_corners
+from .pixel_drawing import pixel_square
 
 AXES = 0.55  # the length of the world's axes, in distances of the image plane
 

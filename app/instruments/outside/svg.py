@@ -15,8 +15,10 @@ from html import escape
 import numpy as np
 from PIL import Image
 
-from lucida.app.instruments.outside.diagram import runs
-from lucida.app.instruments.outside.figure import (
+from lucida.renderer.images.display import Bytes
+
+from .diagram import runs
+from .figure import (
     DASHES,
     RIM,
     WHITE,
@@ -29,7 +31,6 @@ from lucida.app.instruments.outside.figure import (
     Picture,
     Polygon,
 )
-from lucida.renderer.images.display import Bytes
 
 FONTS = "Roboto, Helvetica, Arial, narrowed, sans-serif"  # narrowed: in lecture.css
 MONO = "Roboto Mono, Consolas, Menlo, monospace"

@@ -9,13 +9,6 @@ from typing import NamedTuple
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.instruments.outside.diagram import Role
-from lucida.app.instruments.outside.looking import AXIS_NAMES, TRIAD_PX
-from lucida.app.instruments.outside.mouse import Scope
-from lucida.app.instruments.outside.paint import label_color
-from lucida.app.instruments.outside.painting import measured, rimmed_text
-from lucida.app.instruments.outside.placing import Box, Edges, LabelPlacer
-from lucida.app.instruments.outside.projected import Primitive, Text
 from lucida.app.state.bounds import whole_range_of
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.ui import theme
@@ -25,6 +18,14 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
+
+from .diagram import Role
+from .looking import AXIS_NAMES, TRIAD_PX
+from .mouse import Scope
+from .paint import label_color
+from .painting import measured, rimmed_text
+from .placing import Box, Edges, LabelPlacer
+from .projected import Primitive, Text
 
 MENU = "Instruments/In the outside view"
 PAD = 6  # around the menu's button

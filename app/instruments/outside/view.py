@@ -22,33 +22,6 @@ from lucida.app.images.ray_pictures import RayPictures
 from lucida.app.images.renderers import look_of
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.screen import available_px
-from lucida.app.instruments.outside.camera_diagram import Content
-from lucida.app.instruments.outside.cloud import Cloud
-from lucida.app.instruments.outside.cloud_layer import CloudLayer
-from lucida.app.instruments.outside.diagram import Item
-from lucida.app.instruments.outside.extensions import Extension, Extensions
-from lucida.app.instruments.outside.extent import arrow_length, end_parameter
-from lucida.app.instruments.outside.frustum import pixel_seen, plane_corners
-from lucida.app.instruments.outside.gizmo import Gizmo
-from lucida.app.instruments.outside.ground import Ground, GroundPicture
-from lucida.app.instruments.outside.growing import grown_diagram
-from lucida.app.instruments.outside.hosted import Hosted
-from lucida.app.instruments.outside.looking import (
-    Scopes,
-    camera_along,
-    camera_for_all,
-    nearest,
-    ray_ends,
-    units_px,
-    widest_px,
-)
-from lucida.app.instruments.outside.mouse import Area, Mouse, Scope
-from lucida.app.instruments.outside.paint import ground_of, layers
-from lucida.app.instruments.outside.pixel_plane import PixelPlane
-from lucida.app.instruments.outside.placing import Edges, LabelPlacer
-from lucida.app.instruments.outside.projected import Primitive, project
-from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
-from lucida.app.instruments.outside.tools import draw_labels, use_tools, written
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
@@ -64,6 +37,34 @@ from lucida.renderer.raster.overlay import Overlay
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import Memo
+
+from .camera_diagram import Content
+from .cloud import Cloud
+from .cloud_layer import CloudLayer
+from .diagram import Item
+from .extensions import Extension, Extensions
+from .extent import arrow_length, end_parameter
+from .frustum import pixel_seen, plane_corners
+from .gizmo import Gizmo
+from .ground import Ground, GroundPicture
+from .growing import grown_diagram
+from .hosted import Hosted
+from .looking import (
+    Scopes,
+    camera_along,
+    camera_for_all,
+    nearest,
+    ray_ends,
+    units_px,
+    widest_px,
+)
+from .mouse import Area, Mouse, Scope
+from .paint import ground_of, layers
+from .pixel_plane import PixelPlane
+from .placing import Edges, LabelPlacer
+from .projected import Primitive, project
+from .screen import OutsideScreen, image_plane
+from .tools import draw_labels, use_tools, written
 
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # of an arrow key

@@ -11,7 +11,6 @@ from typing import Literal
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.instruments.poses.model import PoseSet
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options.poses import PosesOptions
 from lucida.app.ui import theme
@@ -21,6 +20,8 @@ from lucida.app.ui.messages import wrapped
 from lucida.app.ui.rows import follow, tip
 from lucida.app.ui.theme import Fonts, framebuffer_scale
 from lucida.renderer.system.errors import one_line
+
+from .model import PoseSet
 
 PoseWish = Literal["", "open", "close", "frame", "next", "previous", "first", "last", "lay"]
 INVITATION = (

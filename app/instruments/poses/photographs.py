@@ -12,10 +12,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.poses.model import PoseSet
-from lucida.app.instruments.poses.reprojected import with_points
 from lucida.app.ui.background import Background
 from lucida.renderer.system.errors import one_line
+
+from .model import PoseSet
+from .reprojected import with_points
 
 SIDE_PX = 800  # a picture's longer side, at most
 KEPT = 24  # pictures: at most 50 MB

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from lucida.app.instruments.outside.screen import OutsideScreen
-from lucida.app.instruments.poses.model import PoseSet
+
+from .model import PoseSet
 
 REACH_PX = 12.0  # from a point of a frustum's edges, in units of symbols
 PLACES = np.linspace(0.0, 1.0, 9)[:, None]  # of the points along an edge

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from lucida.app.cameras.taken import TakenCamera, is_fitted, told_of
-from lucida.app.instruments.poses.model import PoseSet, load_poses, pose_set
 from lucida.app.ui.background import Background
 from lucida.renderer.files.cameras.given import Given, given
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import LucidaError, describe, one_line
+
+from .model import PoseSet, load_poses, pose_set
 
 KEPT = 2
 # Of files that hold no scene.

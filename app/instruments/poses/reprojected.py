@@ -7,7 +7,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.poses.model import PoseSet
+from .model import PoseSet
 
 Bytes = NDArray[np.uint8]
 MANY = (4, 20)  # pixels per point, above which points are larger

@@ -19,18 +19,6 @@ from lucida.app.instruments.outside.looking import nearest
 from lucida.app.instruments.outside.mouse import Scope
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.instruments.poses import panel
-from lucida.app.instruments.poses.model import (
-    PoseSet,
-    cloud,
-    frusta,
-    with_set,
-    with_set_framed,
-)
-from lucida.app.instruments.poses.panel import PoseWish
-from lucida.app.instruments.poses.photographs import Photograph, Photographs, photo_path
-from lucida.app.instruments.poses.picking import picked
-from lucida.app.instruments.poses.reading import PosesReader
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored
 from lucida.app.ui import layout, theme
@@ -43,6 +31,19 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene import Scene
 from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.memo import Memo
+
+from . import panel
+from .model import (
+    PoseSet,
+    cloud,
+    frusta,
+    with_set,
+    with_set_framed,
+)
+from .panel import PoseWish
+from .photographs import Photograph, Photographs, photo_path
+from .picking import picked
+from .reading import PosesReader
 
 POSES = "Poses"
 PHOTO = "photograph"

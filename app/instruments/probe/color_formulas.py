@@ -11,8 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from lucida.app.instruments.probe.reading import Bounce, Reading
-from lucida.app.instruments.probe.shading import Lamp, Shading
 from lucida.app.ui.explaining.notation import (
     DECIMALS,
     Line,
@@ -31,6 +29,9 @@ from lucida.renderer.images.shared_numbers import (
     SRGB_SLOPE,
 )
 from lucida.renderer.scene.model import Color
+
+from .reading import Bounce, Reading
+from .shading import Lamp, Shading
 
 LIGHT = r"\mathbf{L}"
 

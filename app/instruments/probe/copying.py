@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from lucida.app.instruments.probe.color_formulas import color_lines
-from lucida.app.instruments.probe.formulas import hit_lines, pixel_text, ray_lines
-from lucida.app.instruments.probe.reading import Reading
 from lucida.app.ui.explaining.notation import Line
 from lucida.renderer.camera.pixels import Indexing
+
+from .color_formulas import color_lines
+from .formulas import hit_lines, pixel_text, ray_lines
+from .reading import Reading
 
 
 def section_lines(

@@ -11,9 +11,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from lucida.app.instruments.probe.lens_formulas import lens_lines
-from lucida.app.instruments.probe.reading import Reading
-from lucida.app.instruments.probe.shading import SurfaceHit
 from lucida.app.ui.explaining.notation import (
     Line,
     Slot,
@@ -26,6 +23,10 @@ from lucida.app.ui.explaining.notation import (
 )
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
+
+from .lens_formulas import lens_lines
+from .reading import Reading
+from .shading import SurfaceHit
 
 LECTURE_VIEWPORT = (-0.5, 0.5, -0.5, 0.5)
 LEAST_COSINE = (

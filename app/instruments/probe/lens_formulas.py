@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 
 from lucida.app.cameras.lens_choices import KINDS
-from lucida.app.instruments.probe.reading import Reading
 from lucida.app.ui.explaining.notation import (
     Line,
     formula,
@@ -20,6 +19,8 @@ from lucida.app.ui.explaining.notation import (
     vector_slot,
 )
 from lucida.renderer.camera.lenses import Lens
+
+from .reading import Reading
 
 
 def _around(a: str, b: str, r: str, theta: str) -> str:

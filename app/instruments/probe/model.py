@@ -10,8 +10,18 @@ import math
 
 import numpy as np
 
-from lucida.app.instruments.probe.crossings import NOTHING, Crossings, Index
-from lucida.app.instruments.probe.reading import (
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Vector, three
+from lucida.renderer.camera.image_plane import Size, has_pixel
+from lucida.renderer.images.display import encode_srgb
+from lucida.renderer.images.frame import check_size
+from lucida.renderer.scene.flat import FlatScene, flatten
+from lucida.renderer.scene.model import Color, Scene, Sphere
+from lucida.renderer.system.errors import LucidaError
+from lucida.renderer.trace import pure_python as scalar
+
+from .crossings import NOTHING, Crossings, Index
+from .reading import (
     BEHIND,
     FAR,
     HIDDEN,
@@ -22,16 +32,7 @@ from lucida.app.instruments.probe.reading import (
     Meeting,
     Reading,
 )
-from lucida.app.instruments.probe.shading import LitTest, Shading, SurfaceHit, hit_at, shade
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Vector, three
-from lucida.renderer.camera.image_plane import Size, has_pixel
-from lucida.renderer.images.display import encode_srgb
-from lucida.renderer.images.frame import check_size
-from lucida.renderer.scene.flat import FlatScene, flatten
-from lucida.renderer.scene.model import Color, Scene, Sphere
-from lucida.renderer.system.errors import LucidaError
-from lucida.renderer.trace import pure_python as scalar
+from .shading import LitTest, Shading, SurfaceHit, hit_at, shade
 
 
 class Probe:

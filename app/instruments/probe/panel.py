@@ -13,11 +13,6 @@ import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.instruments.outside.growing import lit_in
-from lucida.app.instruments.probe.copying import (
-    as_latex,
-    section_lines,
-)
-from lucida.app.instruments.probe.reading import OUTSIDE, SEEN, Meeting, Reading
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import palettes, theme
@@ -30,6 +25,12 @@ from lucida.app.ui.theme import Fonts
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.scene.model import Color
+
+from .copying import (
+    as_latex,
+    section_lines,
+)
+from .reading import OUTSIDE, SEEN, Meeting, Reading
 
 # Lines whose value is a colour, shown next to them.
 _SWATCHED = ("ambient", "diffuse", "specular", "mirror", "sum", "reflectance", "background", "k_s")

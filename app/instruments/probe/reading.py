@@ -6,11 +6,12 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from lucida.app.instruments.probe.shading import Shading, SurfaceHit
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import Color
+
+from .shading import Shading, SurfaceHit
 
 # The relation of a crossing to the pixel.
 SEEN = "seen"  # the nearest within the ray: the winner

@@ -18,10 +18,6 @@ from lucida.app.instruments.outside.diagram import Arrow, Dot, Item, Segments
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.growing import stage_at
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.instruments.probe import panel
-from lucida.app.instruments.probe.actions import PINNING
-from lucida.app.instruments.probe.model import Probe
-from lucida.app.instruments.probe.reading import Reading
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import formula, theme
@@ -33,6 +29,11 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size, has_pixel
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo
+
+from . import panel
+from .actions import PINNING
+from .model import Probe
+from .reading import Reading
 
 PROBE = "Probe"
 NORMAL = 0.12  # the length of a normal's arrow, in parts of the scene's reach

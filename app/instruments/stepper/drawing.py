@@ -11,9 +11,6 @@ from typing import Any, NamedTuple
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.instruments.stepper import julia
-from lucida.app.instruments.stepper.code import LINE, code, code_size
-from lucida.app.instruments.stepper.source import shown_lines
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
 from lucida.app.ui.canvas import (
@@ -31,6 +28,10 @@ from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.memo import Memo
+
+from . import julia
+from .code import LINE, code, code_size
+from .source import shown_lines
 
 GAP_EM = 0.9
 MOST_CODE = 0.68  # of the width or height

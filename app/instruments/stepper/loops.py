@@ -8,8 +8,8 @@ and a size (width, height), and return the same Canvas.
 
 from __future__ import annotations
 
-from lucida.app.instruments.stepper.loop_parts import MISS, Canvas, color_at, intersect, viewing_ray
-from lucida.app.instruments.stepper.raster_parts import (
+from .loop_parts import MISS, Canvas, color_at, intersect, viewing_ray
+from .raster_parts import (
     box_around,
     edge,
     prepared,

@@ -13,12 +13,13 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from lucida.app.instruments.stepper.loop_parts import Hit, Object, ViewingRay
-from lucida.app.instruments.stepper.raster_parts import Corner, Triangle
-from lucida.app.instruments.stepper.recording import Recording
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.explaining.notation import number, text_tuple
 from lucida.renderer.camera.checks import Floats
+
+from .loop_parts import Hit, Object, ViewingRay
+from .raster_parts import Corner, Triangle
+from .recording import Recording
 
 SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "q", "x", "y", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip

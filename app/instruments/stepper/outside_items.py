@@ -10,12 +10,13 @@ import numpy as np
 from lucida.app.instruments.outside.diagram import Dot, Item, Segments, polyline
 from lucida.app.instruments.outside.frustum import image_point
 from lucida.app.instruments.outside.pixel_drawing import pixel_square
-from lucida.app.instruments.stepper.loop_parts import ViewingRay
-from lucida.app.instruments.stepper.model import Moment
-from lucida.app.instruments.stepper.programs import Hits
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
+
+from .loop_parts import ViewingRay
+from .model import Moment
+from .programs import Hits
 
 
 def run_items(camera: Camera, size: Size, moments: tuple[Moment, ...], end: float) -> list[Item]:

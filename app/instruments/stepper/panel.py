@@ -10,9 +10,6 @@ from typing import NamedTuple
 
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.instruments.stepper.drawing import Drawn, draw_program, written
-from lucida.app.instruments.stepper.model import Moment, Variable, Wish, describe
-from lucida.app.instruments.stepper.recording import MOST_STEPS, Recording
 from lucida.app.state.app_state import AppState
 from lucida.app.state.bounds import range_of
 from lucida.app.state.options import Options
@@ -24,6 +21,10 @@ from lucida.app.ui.explaining import symbols
 from lucida.app.ui.lettering import underline
 from lucida.app.ui.rows import button_width, follow, tip
 from lucida.app.ui.theme import Fonts
+
+from .drawing import Drawn, draw_program, written
+from .model import Moment, Variable, Wish, describe
+from .recording import MOST_STEPS, Recording
 
 CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
 SPEED_EM = 6.5

@@ -9,10 +9,17 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.instruments.stepper.drawing import Canvases, Drawn, draw_program, written
-from lucida.app.instruments.stepper.loop_parts import Model
-from lucida.app.instruments.stepper.outside_items import traced_items
-from lucida.app.instruments.stepper.programs import (
+from lucida.app.state.options.shared import Pixel
+from lucida.app.ui.canvas import Marks
+from lucida.app.ui.host import Host
+from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.system.memo import Memo
+
+from .drawing import Canvases, Drawn, draw_program, written
+from .loop_parts import Model
+from .outside_items import traced_items
+from .programs import (
     IMAGE_ORDER,
     OBJECT_ORDER,
     RAY_TRACING,
@@ -23,14 +30,8 @@ from lucida.app.instruments.stepper.programs import (
     run_part,
     whole_program,
 )
-from lucida.app.instruments.stepper.questions import draw_questions
-from lucida.app.instruments.stepper.runs import Prepared
-from lucida.app.state.options.shared import Pixel
-from lucida.app.ui.canvas import Marks
-from lucida.app.ui.host import Host
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.system.memo import Memo
+from .questions import draw_questions
+from .runs import Prepared
 
 TEXT = 0.12  # of the height, above the two loops: for a text that lies over it
 

@@ -15,11 +15,12 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.app.instruments.stepper.loop_parts import Model, ViewingRay, color_at, intersect
 from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, three
 from lucida.renderer.camera.image_plane import Size
+
+from .loop_parts import Model, ViewingRay, color_at, intersect
 
 GLOW = 0.01  # of a run: the lines that have just been executed shine together
 # When a line is executed: in each turn of the outer loop, in each turn of the inner one, if the

@@ -14,7 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from lucida.app.instruments.stepper.loop_parts import (
+from lucida.renderer.camera.camera import NEAREST, Camera
+from lucida.renderer.camera.checks import Floats, three
+from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.scene.model import Color
+from lucida.renderer.scene.sampling import are_passed
+
+from .loop_parts import (
     Canvas,
     Model,
     Object,
@@ -23,11 +29,6 @@ from lucida.app.instruments.stepper.loop_parts import (
     light_at,
     viewing_ray,
 )
-from lucida.renderer.camera.camera import NEAREST, Camera
-from lucida.renderer.camera.checks import Floats, three
-from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.scene.model import Color
-from lucida.renderer.scene.sampling import are_passed
 
 FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on
 ROUNDING_PX = 1e-6  # a centre that lies on the edge counts

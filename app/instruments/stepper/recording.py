@@ -14,12 +14,13 @@ from functools import cached_property
 from types import FrameType
 from typing import Any
 
-from lucida.app.instruments.stepper.loop_parts import Model
-from lucida.app.instruments.stepper.source import source_of
 from lucida.app.state.bounds import check, whole_range_of
 from lucida.app.state.options.stepper import StepperOptions
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
+
+from .loop_parts import Model
+from .source import source_of
 
 MOST_STEPS = whole_range_of(StepperOptions, "steps")[1]
 # The recorder checks this often whether it is wanted, and sleeps, so that the window gets its turn.

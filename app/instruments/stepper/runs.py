@@ -7,9 +7,6 @@ from typing import Generic, NamedTuple, TypeVar
 
 from imgui_bundle import imgui
 
-from lucida.app.instruments.stepper.loop_parts import Model
-from lucida.app.instruments.stepper.loops import PROGRAMS
-from lucida.app.instruments.stepper.recording import Recording
 from lucida.app.ui import theme
 from lucida.app.ui.background import Background
 from lucida.app.ui.host import Host
@@ -18,6 +15,10 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import describe
 from lucida.renderer.system.memo import Memo, same
+
+from .loop_parts import Model
+from .loops import PROGRAMS
+from .recording import Recording
 
 T = TypeVar("T")
 

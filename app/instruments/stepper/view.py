@@ -17,16 +17,17 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.instruments.outside.extent import end_parameter
 from lucida.app.instruments.outside.view import OutsideView
-from lucida.app.instruments.stepper import panel
-from lucida.app.instruments.stepper.drawing import Canvases
-from lucida.app.instruments.stepper.model import Moment, Wish, after, moment_at
-from lucida.app.instruments.stepper.outside_items import run_items
-from lucida.app.instruments.stepper.pictures import LoopPictures
-from lucida.app.instruments.stepper.recording import Recording
-from lucida.app.instruments.stepper.runs import Made, Prepared, recordings
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.renderer.system.memo import Memo
+
+from . import panel
+from .drawing import Canvases
+from .model import Moment, Wish, after, moment_at
+from .outside_items import run_items
+from .pictures import LoopPictures
+from .recording import Recording
+from .runs import Made, Prepared, recordings
 
 STEPPER = "Stepper"
 TITLES = "Object order: rasterization", "Image order: ray tracing"

@@ -11,20 +11,21 @@ from dataclasses import dataclass, field, is_dataclass, replace
 from typing import Any
 
 from lucida.app.state.bounds import OptionPart
-from lucida.app.state.options.camera import CameraOptions
-from lucida.app.state.options.compare import CompareOptions
-from lucida.app.state.options.costs import CostOptions
-from lucida.app.state.options.laboratory import LaboratoryOptions
-from lucida.app.state.options.mistakes import MistakesOptions
-from lucida.app.state.options.objects import ObjectsOptions
-from lucida.app.state.options.outside import OutsideOptions
-from lucida.app.state.options.pair import PairOptions
-from lucida.app.state.options.photograph import PhotographOptions
-from lucida.app.state.options.poses import PosesOptions
-from lucida.app.state.options.probe import ProbeOptions
-from lucida.app.state.options.shared import SharedOptions
-from lucida.app.state.options.stepper import StepperOptions
-from lucida.app.state.options.your_code import YourCodeOptions
+
+from .camera import CameraOptions
+from .compare import CompareOptions
+from .costs import CostOptions
+from .laboratory import LaboratoryOptions
+from .mistakes import MistakesOptions
+from .objects import ObjectsOptions
+from .outside import OutsideOptions
+from .pair import PairOptions
+from .photograph import PhotographOptions
+from .poses import PosesOptions
+from .probe import ProbeOptions
+from .shared import SharedOptions
+from .stepper import StepperOptions
+from .your_code import YourCodeOptions
 
 
 @dataclass(frozen=True)

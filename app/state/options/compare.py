@@ -6,8 +6,9 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from lucida.app.state.bounds import OptionPart, Range
-from lucida.app.state.options.shared import Part
 from lucida.renderer.images.difference import LARGEST_GAIN
+
+from .shared import Part
 
 CompareMode = Literal["absolute", "wipe"]
 

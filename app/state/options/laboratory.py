@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Annotated, Literal
 
 from lucida.app.state.bounds import OptionPart, Range
-from lucida.app.state.options.shared import Part
+
+from .shared import Part
 
 LONGEST = 4.0  # the largest progress of all drawings
 

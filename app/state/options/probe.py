@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from typing import Annotated
 
 from lucida.app.state.bounds import AtMost, OptionPart
-from lucida.app.state.options.shared import Pixel
+
+from .shared import Pixel
 
 
 @dataclass(frozen=True)

@@ -27,11 +27,12 @@ from lucida.app.lecture.model import Exercise, Step
 from lucida.app.lecture.text import Math, Paragraph, escaped, parse
 from lucida.app.state.kept_lecture import Judgement
 from lucida.app.ui.explaining import symbols
-from lucida.app.web.lecture.drawn import paper
-from lucida.app.web.lecture.mathml import VECTORS
-from lucida.app.web.lecture.text import plain, written
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.views import view_table
+
+from .drawn import paper
+from .mathml import VECTORS
+from .text import plain, written
 
 BOLD = frozenset("uvwepdx")
 

@@ -14,11 +14,12 @@ from lucida.app.lecture.model import Step
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.state.options.pair import PairOptions
-from lucida.app.web.lecture.pictures import data_uri
 from lucida.app.web.scene_page import packed_scene
 from lucida.renderer.files.views import view_table
 from lucida.renderer.scene.model import Scene, View
 from lucida.renderer.system.errors import LucidaError
+
+from .pictures import data_uri
 
 IMAGE = 720, 480  # an image's size in pixels if the step has none, in modules/figure.js's shape
 # The parts of a figure, by view.

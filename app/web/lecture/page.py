@@ -14,14 +14,15 @@ from lucida.app.lecture.text import Question
 from lucida.app.state.app_state import AppState
 from lucida.app.web.document import document
 from lucida.app.web.formulas import templates
-from lucida.app.web.lecture import exercises
-from lucida.app.web.lecture.described import SIZE, alternative, title_of
-from lucida.app.web.lecture.figures import Figures, is_live
-from lucida.app.web.lecture.pictures import Form, data_uri, drawing
-from lucida.app.web.lecture.shell import BAR, DIALOGS, overview
-from lucida.app.web.lecture.text import blocks_html, plain
 from lucida.renderer.files.views import view_table
 from lucida.renderer.images.display import Bytes
+
+from . import exercises
+from .described import SIZE, alternative, title_of
+from .figures import Figures, is_live
+from .pictures import Form, data_uri, drawing
+from .shell import BAR, DIALOGS, overview
+from .text import blocks_html, plain
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from lucida.app.lecture.model import Lecture
-from lucida.app.web.lecture.text import plain
+
+from .text import plain
 
 BAR = """<nav aria-label="Steps">
 <button type="button" id="previous">Previous</button>

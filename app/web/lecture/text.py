@@ -18,8 +18,9 @@ from lucida.app.lecture.text import (
     Words,
     parse,
 )
-from lucida.app.web.lecture.mathml import VECTORS, displayed, inline
 from lucida.renderer.system.errors import visible
+
+from .mathml import VECTORS, displayed, inline
 
 
 def plain(text: str) -> str:

@@ -4,7 +4,7 @@
 R and t are in renderer/camera/intrinsics.py.
 """
 
-from lucida.renderer.files.cameras.formats import (
+from .formats import (
     FORMATS,
     format_named,
     read_cameras,
@@ -12,8 +12,8 @@ from lucida.renderer.files.cameras.formats import (
     without_choice,
     written,
 )
-from lucida.renderer.files.cameras.given import Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
+from .given import Options
+from .posed import CameraSet, PosedCamera, one_of
 
 __all__ = [
     "FORMATS",

@@ -17,14 +17,15 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.intrinsics import viewport_of
-from lucida.renderer.files.cameras import colmap_records as records
-from lucida.renderer.files.cameras.distortion import lens_of
-from lucida.renderer.files.cameras.entries import ORIGIN_TOLD
-from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
-from lucida.renderer.files.cameras.rotations import rotation_of
 from lucida.renderer.files.reading import naming, read_file
 from lucida.renderer.system.errors import LucidaError, under
+
+from . import colmap_records as records
+from .distortion import lens_of
+from .entries import ORIGIN_TOLD
+from .given import Given, Options
+from .posed import CameraSet, PosedCamera
+from .rotations import rotation_of
 
 FILES = ("cameras", "images", "points3D")
 MORE_FILES = ("rigs", "frames")

@@ -17,8 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.camera.checks import LARGEST
-from lucida.renderer.files.cameras.colmap_lenses import MODELS, NAMES, ColmapLens, colmap_lens
 from lucida.renderer.system.errors import LucidaError, under
+
+from .colmap_lenses import MODELS, NAMES, ColmapLens, colmap_lens
 
 _CAMERA = "CAMERA_ID MODEL WIDTH HEIGHT PARAMS"
 _IMAGE = "IMAGE_ID QW QX QY QZ TX TY TZ CAMERA_ID NAME"

@@ -20,11 +20,12 @@ from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 
-from lucida.renderer.files.cameras.distortion import check_held
-from lucida.renderer.files.cameras.given import Given, Options, from_json, given
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
 from lucida.renderer.files.reading import naming, suggestion
 from lucida.renderer.system.errors import LucidaError, under
+
+from .distortion import check_held
+from .given import Given, Options, from_json, given
+from .posed import CameraSet, PosedCamera, one_of
 
 
 @dataclass(frozen=True)

@@ -14,14 +14,15 @@ from typing import Any
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import listed
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, sized
-from lucida.renderer.files.cameras.rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
 from lucida.renderer.files.models.gltf import placed_nodes
 from lucida.renderer.files.models.gltf_cameras import UNCLIPPED, gltf_camera
 from lucida.renderer.files.models.gltf_file import Gltf, parse_gltf
 from lucida.renderer.scene.limits import OBJECTS
 from lucida.renderer.system.errors import LucidaError
+
+from .given import Given, Options
+from .posed import CameraSet, PosedCamera, sized
+from .rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
 
 # For a camera without clip planes: in units of the viewport's distance (parallel: its height).
 NEAR, FAR = 1e-3, 1e3

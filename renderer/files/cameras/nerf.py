@@ -22,17 +22,18 @@ from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import pixel_offset
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras.distortion import FISHEYE_NAMES, lens_of
-from lucida.renderer.files.cameras.entries import (
+from lucida.renderer.system.errors import LucidaError
+
+from .distortion import FISHEYE_NAMES, lens_of
+from .entries import (
     ORIGIN_TOLD,
     affine,
     notes_on,
     number_of,
     size_of,
 )
-from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera
-from lucida.renderer.system.errors import LucidaError
+from .given import Given, Options
+from .posed import CameraSet, PosedCamera
 
 Table = Mapping[str, Any]
 

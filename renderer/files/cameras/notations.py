@@ -15,9 +15,10 @@ from xml.etree import ElementTree
 import numpy as np
 import yaml
 
-from lucida.renderer.files.cameras.given import Given, from_json
 from lucida.renderer.files.reading import check_bytes
 from lucida.renderer.system.errors import LucidaError
+
+from .given import Given, from_json
 
 Table = dict[str, Any]
 

@@ -23,10 +23,12 @@ from lucida.renderer.camera.intrinsics import (
     pixel_offset,
 )
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras import entries
-from lucida.renderer.files.cameras.entries import ORIGIN_TOLD, affine, flat, number_of, plain
-from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.notations import (
+from lucida.renderer.system.errors import LucidaError
+
+from . import entries
+from .entries import ORIGIN_TOLD, affine, flat, number_of, plain
+from .given import Given, Options
+from .notations import (
     MOST_BYTES,
     Table,
     assigned,
@@ -34,17 +36,16 @@ from lucida.renderer.files.cameras.notations import (
     table_in,
     to_yaml,
 )
-from lucida.renderer.files.cameras.opencv_keys import (
+from .opencv_keys import (
     Keys,
     are_cameras,
     cameras_in,
     lens_in,
     lens_table,
 )
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image, one_of
-from lucida.renderer.files.cameras.rigid import rigid
-from lucida.renderer.files.cameras.rotations import from_vector
-from lucida.renderer.system.errors import LucidaError
+from .posed import CameraSet, PosedCamera, in_image, one_of
+from .rigid import rigid
+from .rotations import from_vector
 
 LENSES = ("brown", "fisheye", "equidistant")
 _FOCAL = ("fx", "fy", "cx", "cy")

@@ -15,11 +15,12 @@ from typing import Any
 import numpy as np
 
 from lucida.renderer.camera.lenses import Lens
-from lucida.renderer.files.cameras import distortion
-from lucida.renderer.files.cameras.distortion import NAMES
-from lucida.renderer.files.cameras.entries import entries_of, flat, notes_on, number_of, plain
-from lucida.renderer.files.cameras.notations import Table
 from lucida.renderer.system.errors import LucidaError
+
+from . import distortion
+from .distortion import NAMES
+from .entries import entries_of, flat, notes_on, number_of, plain
+from .notations import Table
 
 Keys = dict[str, tuple[str, Any]]  # by role: the file's name for it, and its value
 

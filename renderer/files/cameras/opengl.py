@@ -13,12 +13,13 @@ import numpy as np
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, Vector, listed
-from lucida.renderer.files.cameras.entries import flat, notes_on
-from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.notations import assigned, value_of
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, in_image, one_of
 from lucida.renderer.files.reading import check_bytes
 from lucida.renderer.system.errors import LucidaError
+
+from .entries import flat, notes_on
+from .given import Given, Options
+from .notations import assigned, value_of
+from .posed import CameraSet, PosedCamera, in_image, one_of
 
 Order = Literal["column by column", "row by row"]
 

@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.files.cameras.given import Options
 from lucida.renderer.images.frame import check_size
 from lucida.renderer.system.errors import LucidaError
+
+from .given import Options
 
 NAMES_TOLD = 3  # cameras that an error's remedy lists
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lucida.renderer.camera.lenses import MODELS
-from lucida.renderer.files.cameras.given import Given, Options
-from lucida.renderer.files.cameras.posed import CameraSet, PosedCamera, one_of
 from lucida.renderer.files.reading import check_bytes
 from lucida.renderer.files.views import view_from_toml, view_to_toml
 from lucida.renderer.scene.limits import TOML_BYTES
 from lucida.renderer.scene.model import View
+
+from .given import Given, Options
+from .posed import CameraSet, PosedCamera, one_of
 
 LENSES = MODELS
 

@@ -6,6 +6,6 @@ glb_tree        the tree of that file, and its binary part
 meshes          triangles as glTF needs them
 """
 
-from lucida.renderer.files.export.export import ENDINGS, check_export_path, export_scene
+from .export import ENDINGS, check_export_path, export_scene
 
 __all__ = ["ENDINGS", "check_export_path", "export_scene"]

@@ -8,12 +8,13 @@ from pathlib import Path
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras.distortion import check_held
-from lucida.renderer.files.export.gltf_scene import glb_of
 from lucida.renderer.files.reading import path_of
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.atomic import atomic_write, check_writable
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import LucidaError
+
+from .gltf_scene import glb_of
 
 ENDINGS = (".glb",)
 

@@ -17,8 +17,6 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.files.cameras.gltf import camera_table, node_matrix
 from lucida.renderer.files.cameras.rigid import rigid
-from lucida.renderer.files.export.glb_tree import GlbTree
-from lucida.renderer.files.export.meshes import Triangles, exported_triangles
 from lucida.renderer.files.models.gltf_materials import WRAP_NAMES
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.scene.framing import median_distance
@@ -35,6 +33,9 @@ from lucida.renderer.scene.model import (
 from lucida.renderer.scene.texture import Texture
 from lucida.renderer.system.cancelling import check_cancelled
 from lucida.renderer.system.errors import one_line
+
+from .glb_tree import GlbTree
+from .meshes import Triangles, exported_triangles
 
 DIELECTRIC = 0.04  # the reflectance of a non-metallic glTF material at normal incidence
 MOST_REFLECTED = 0.9  # of the light at normal incidence

@@ -14,7 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.files.cameras.rotations import rotation_of
-from lucida.renderer.files.models.gltf_file import (
+from lucida.renderer.files.reading import check_count
+from lucida.renderer.files.texture_images import ModelImages
+from lucida.renderer.scene.limits import OBJECTS, TRIANGLES
+from lucida.renderer.scene.material import Material
+from lucida.renderer.system.cancelling import check_cancelled
+from lucida.renderer.system.errors import LucidaError
+
+from .gltf_file import (
     AGAIN,
     MATERIALS,
     READ,
@@ -26,14 +33,8 @@ from lucida.renderer.files.models.gltf_file import (
     OpenGltf,
     Primitive,
 )
-from lucida.renderer.files.models.gltf_materials import read_materials
-from lucida.renderer.files.models.parts import Part, linear_colors
-from lucida.renderer.files.reading import check_count
-from lucida.renderer.files.texture_images import ModelImages
-from lucida.renderer.scene.limits import OBJECTS, TRIANGLES
-from lucida.renderer.scene.material import Material
-from lucida.renderer.system.cancelling import check_cancelled
-from lucida.renderer.system.errors import LucidaError
+from .gltf_materials import read_materials
+from .parts import Part, linear_colors
 
 SURFACES = TRIANGLE_LIST, TRIANGLE_STRIP, TRIANGLE_FAN
 

@@ -17,12 +17,13 @@ import numpy as np
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import volume
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.files.models.gltf import PlacedNode
-from lucida.renderer.files.models.gltf_file import AGAIN, Gltf, Table
 from lucida.renderer.files.tables import explained
 from lucida.renderer.scene.limits import VIEWS
 from lucida.renderer.scene.model import NamedView, View
 from lucida.renderer.system.errors import LucidaError, under
+
+from .gltf import PlacedNode
+from .gltf_file import AGAIN, Gltf, Table
 
 # In a camera's extras: the names of clip planes that are written because the format needs a number.
 UNCLIPPED = "lucida_unclipped"

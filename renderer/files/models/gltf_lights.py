@@ -12,12 +12,13 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.files.models.gltf import PlacedNode
-from lucida.renderer.files.models.gltf_file import Gltf, GltfLight
 from lucida.renderer.files.texture_images import ModelImages
 from lucida.renderer.scene.framing import median_distance
 from lucida.renderer.scene.material import vector
 from lucida.renderer.scene.model import DirectionalLight, PointLight, SceneObject
+
+from .gltf import PlacedNode
+from .gltf_file import Gltf, GltfLight
 
 BRIGHTEST = 10.0  # of a white surface: a file in lux and candela is made darker
 

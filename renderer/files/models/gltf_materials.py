@@ -11,7 +11,15 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from lucida.renderer.files.models.gltf_file import (
+from lucida.renderer.files.texture_images import FoundImage, ModelImages, decode_image
+from lucida.renderer.scene.limits import IMAGE_BYTES
+from lucida.renderer.scene.material import Material
+from lucida.renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
+from lucida.renderer.scene.model import Color
+from lucida.renderer.scene.texture import WHITE, Texture, placed_alike
+from lucida.renderer.system.errors import LucidaError
+
+from .gltf_file import (
     MATERIALS,
     GltfImage,
     GltfMaterial,
@@ -20,13 +28,6 @@ from lucida.renderer.files.models.gltf_file import (
     OpenGltf,
     TextureInfo,
 )
-from lucida.renderer.files.texture_images import FoundImage, ModelImages, decode_image
-from lucida.renderer.scene.limits import IMAGE_BYTES
-from lucida.renderer.scene.material import Material
-from lucida.renderer.scene.metal import DIELECTRIC, Metal, exponent, reflectances
-from lucida.renderer.scene.model import Color
-from lucida.renderer.scene.texture import WHITE, Texture, placed_alike
-from lucida.renderer.system.errors import LucidaError
 
 WRAP_NAMES = {10497: "repeat", 33648: "mirror", 33071: "clamp"}
 

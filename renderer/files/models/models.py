@@ -10,12 +10,6 @@ from pathlib import Path
 
 import numpy as np
 
-from lucida.renderer.files.models.gltf import PlacedPart, read_gltf
-from lucida.renderer.files.models.gltf_cameras import camera_views
-from lucida.renderer.files.models.gltf_lights import scene_lights
-from lucida.renderer.files.models.obj import read_obj
-from lucida.renderer.files.models.parts import Part, build_mesh
-from lucida.renderer.files.models.readers import read_off, read_ply, read_stl
 from lucida.renderer.files.reading import MODEL_ENDINGS, check_count, naming
 from lucida.renderer.files.texture_images import ModelImages, shown
 from lucida.renderer.scene import framing, shapes
@@ -34,6 +28,13 @@ from lucida.renderer.scene.model import (
 )
 from lucida.renderer.system.cancelling import check_cancelled, during
 from lucida.renderer.system.errors import LucidaError, under
+
+from .gltf import PlacedPart, read_gltf
+from .gltf_cameras import camera_views
+from .gltf_lights import scene_lights
+from .obj import read_obj
+from .parts import Part, build_mesh
+from .readers import read_off, read_ply, read_stl
 
 READERS = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl, ".off": read_off}
 

@@ -12,12 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
-from lucida.renderer.files.models.texts import is_number, tidy
 from lucida.renderer.files.reading import read_file
 from lucida.renderer.files.texture_images import ModelImages, read_image
 from lucida.renderer.scene.limits import MATERIAL_BYTES
 from lucida.renderer.scene.material import Material, vector
 from lucida.renderer.scene.texture import Texture
+
+from .texts import is_number, tidy
 
 _COMMENT = re.compile(r"(?:^|\s)#.*")
 _DEFAULTS = {"kd": [0.7], "ks": [0.0], "ns": [50.0]}

@@ -10,17 +10,18 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.files.models import texts
-from lucida.renderer.files.models.mtl import MtlMaterial, read_mtl
-from lucida.renderer.files.models.obj_lines import Lines
-from lucida.renderer.files.models.parts import Part, linear_colors, used_vertices
-from lucida.renderer.files.models.polygons import triangulated
-from lucida.renderer.files.models.texts import Ints
 from lucida.renderer.files.reading import damaged
 from lucida.renderer.files.texture_images import ModelImages, inner_path, shown
 from lucida.renderer.scene.limits import OBJECTS
 from lucida.renderer.scene.material import Material
 from lucida.renderer.system.errors import LucidaError
+
+from . import texts
+from .mtl import MtlMaterial, read_mtl
+from .obj_lines import Lines
+from .parts import Part, linear_colors, used_vertices
+from .polygons import triangulated
+from .texts import Ints
 
 # What changes no picture: smoothing and groups, without values; levels of detail, bevels.
 _HARMLESS = ("s", "g", "mg", "lod", "bevel", "c_interp", "d_interp", "end")

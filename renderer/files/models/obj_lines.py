@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.files.models.texts import Ints
+from .texts import Ints
 
 _COMMENT = re.compile(rb"#[^\n]*")
 _INDENT = re.compile(rb"^ +", re.MULTILINE)

@@ -10,13 +10,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lucida.renderer.camera.checks import LARGEST
-from lucida.renderer.files.models.polygons import check_corners
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.scene.boxes import extent
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import BRIGHTEST, Mesh
 from lucida.renderer.scene.normals import merge_positions, smooth_normals
 from lucida.renderer.system.errors import LucidaError
+
+from .polygons import check_corners
 
 NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
 SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute

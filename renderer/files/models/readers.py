@@ -12,13 +12,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lucida.renderer.files.models.parts import Part, linear_colors
-from lucida.renderer.files.models.polygons import check_corners, triangulated
-from lucida.renderer.files.models.texts import floats, read_text_bytes, tidy, words
 from lucida.renderer.files.reading import check_bytes, check_count, damaged, read_file
 from lucida.renderer.files.texture_images import ModelImages
 from lucida.renderer.scene.limits import BINARY_MODEL_BYTES, TEXT_MODEL_BYTES, TRIANGLES
 from lucida.renderer.system.errors import LucidaError
+
+from .parts import Part, linear_colors
+from .polygons import check_corners, triangulated
+from .texts import floats, read_text_bytes, tidy, words
 
 _VERTEX = re.compile(rb"(?i)vertex([^\n]*)")
 _FACET = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attribute", "<u2")])

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.system.errors import LucidaError
-from lucida.renderer.trace.arguments.buffers import Buffers
+
+from .buffers import Buffers
 
 BLOCK = 32  # pixels: side of the square that a thread traces at a time
 

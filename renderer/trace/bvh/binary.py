@@ -14,7 +14,16 @@ from numpy.typing import NDArray
 
 from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.scene.positions import world_vertices
-from lucida.renderer.trace.bvh.sah_split import (
+from lucida.renderer.trace.compile.compiled import inlined, kernel
+from lucida.renderer.trace.compile.emit import greater, lesser
+from lucida.renderer.trace.reference.traverse import Tree
+from lucida.renderer.trace.reference.vectors import row
+from lucida.renderer.trace.threads.atomic import take_next
+from lucida.renderer.trace.threads.thread_pool import Team, new_control
+from lucida.renderer.trace.vector.lanes import LANES
+from lucida.renderer.trace.vector.memory import load, pointer, stack_room, store
+
+from .sah_split import (
     BINS,
     HIGH,
     NUMBER,
@@ -25,14 +34,6 @@ from lucida.renderer.trace.bvh.sah_split import (
     bounds_of_records,
     partition,
 )
-from lucida.renderer.trace.compile.compiled import inlined, kernel
-from lucida.renderer.trace.compile.emit import greater, lesser
-from lucida.renderer.trace.reference.traverse import Tree
-from lucida.renderer.trace.reference.vectors import row
-from lucida.renderer.trace.threads.atomic import take_next
-from lucida.renderer.trace.threads.thread_pool import Team, new_control
-from lucida.renderer.trace.vector.lanes import LANES
-from lucida.renderer.trace.vector.memory import load, pointer, stack_room, store
 
 F32 = NDArray[np.float32]
 I32 = NDArray[np.int32]

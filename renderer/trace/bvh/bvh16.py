@@ -15,7 +15,6 @@ import numpy as np
 from numba.core import types
 from numpy.typing import NDArray
 
-from lucida.renderer.trace.bvh.binary import MAX_DEPTH, Bvh, build
 from lucida.renderer.trace.compile.compiled import kernel
 from lucida.renderer.trace.compile.emit import emitted, greater, i64, lesser
 from lucida.renderer.trace.reference.vectors import cross, dot, minus, times
@@ -39,6 +38,8 @@ from lucida.renderer.trace.vector.lanes import (
 )
 from lucida.renderer.trace.vector.math import select_lanes, store3
 from lucida.renderer.trace.vector.memory import load, pointer, stack_room, store
+
+from .binary import MAX_DEPTH, Bvh, build
 
 WIDTH = 16  # children per node, triangles per leaf: the lanes of a vector
 NO_CHILD = -1

@@ -20,7 +20,9 @@ from numpy.typing import NDArray
 from lucida.renderer.scene.boxes import world_boxes
 from lucida.renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from lucida.renderer.scene.model import Mesh, Scene
-from lucida.renderer.trace.bvh.bvh16 import (
+from lucida.renderer.trace.threads.thread_pool import Team
+
+from .bvh16 import (
     FIRST_LEAF,
     WIDTH,
     WideTree,
@@ -28,7 +30,6 @@ from lucida.renderer.trace.bvh.bvh16 import (
     tree_of_boxes,
     tree_of_mesh,
 )
-from lucida.renderer.trace.threads.thread_pool import Team
 
 # Bits of an instance: its vertices have normals, have colours; its transform changes angles, is the
 # identity; its material has a texture, is single-sided, has a cutout.

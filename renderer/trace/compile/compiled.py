@@ -16,8 +16,9 @@ from numba.core.compiler_machinery import PassManager
 from numba.core.registry import cpu_target
 
 from lucida.renderer.system import compile_note
-from lucida.renderer.trace.compile.cache_folder import cache_folder
-from lucida.renderer.trace.compile.emit import defined
+
+from .cache_folder import cache_folder
+from .emit import defined
 
 _cache_dir_lock = threading.Lock()
 _has_failed = threading.Event()  # set once machine code could not be loaded or saved

@@ -8,12 +8,13 @@ from numpy.typing import NDArray
 from lucida.renderer.trace.bvh.bvh16 import FIRST_LEAF
 from lucida.renderer.trace.bvh.instances import Instances
 from lucida.renderer.trace.compile.compiled import kernel
-from lucida.renderer.trace.rays.traverse import closest_hit
 from lucida.renderer.trace.reference.vectors import triple
 from lucida.renderer.trace.threads.atomic import take_next
 from lucida.renderer.trace.threads.thread_pool import Team, new_control
 from lucida.renderer.trace.vector.lanes import LANES
 from lucida.renderer.trace.vector.memory import pointer, pointers
+
+from .traverse import closest_hit
 
 _CHUNK = 256  # rays that a thread takes at a time
 

@@ -21,7 +21,6 @@ from lucida.renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
 from lucida.renderer.trace.bvh.instances import HAS_HOLES, IS_SINGLE_SIDED, IS_UNMOVED
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import emitted
-from lucida.renderer.trace.rays.holes import without_holes
 from lucida.renderer.trace.reference.vectors import (
     dot,
     minus,
@@ -44,6 +43,8 @@ from lucida.renderer.trace.vector.lanes import (
     vmin,
 )
 from lucida.renderer.trace.vector.memory import load, store
+
+from .holes import without_holes
 
 _ROUNDING = np.float32(5e-7)  # relative: more than the total rounding error of a box test
 _STEEP = np.float32(1e-9)  # least size of a direction's component, relative to the largest

@@ -11,7 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from lucida.renderer.trace.compile.compiled import inlined
-from lucida.renderer.trace.reference.vectors import dot, minus, plus, row, times
+
+from .vectors import dot, minus, plus, row, times
 
 HUGE = 1e290  # stands for 1 / 0: finite, because 0 * inf would be NaN
 ROUNDING = 1e-15  # of the coordinates: more than a few float64 roundings add up to

@@ -9,7 +9,9 @@ import numpy as np
 
 from lucida.renderer.trace.arguments.image import BLOCK
 from lucida.renderer.trace.compile.compiled import inlined, kernel
-from lucida.renderer.trace.reference.shade import (
+from lucida.renderer.trace.threads.atomic import count_done, is_cancelled, take_next
+
+from .shade import (
     color_at,
     corners_of,
     normals_at,
@@ -18,9 +20,8 @@ from lucida.renderer.trace.reference.shade import (
     rgb,
     turned,
 )
-from lucida.renderer.trace.reference.traverse import closest_hit
-from lucida.renderer.trace.reference.vectors import cross, dot, minus, row
-from lucida.renderer.trace.threads.atomic import count_done, is_cancelled, take_next
+from .traverse import closest_hit
+from .vectors import cross, dot, minus, row
 
 
 @kernel

@@ -20,14 +20,15 @@ from lucida.renderer.images.shared_numbers import (
 )
 from lucida.renderer.scene import flat
 from lucida.renderer.trace.compile.compiled import inlined
-from lucida.renderer.trace.reference.texture import (
+
+from .texture import (
     BASE,
     MORE,
     light_at_place,
     opacity_at_place,
     place_at,
 )
-from lucida.renderer.trace.reference.vectors import (
+from .vectors import (
     blend,
     cross,
     dot,

@@ -12,7 +12,8 @@ import numpy as np
 from lucida.renderer.images.shared_numbers import CLAMP, MIRROR, TEXEL_BITS, WRAP_BITS
 from lucida.renderer.scene import flat
 from lucida.renderer.trace.compile.compiled import inlined
-from lucida.renderer.trace.reference.vectors import plus, times
+
+from .vectors import plus, times
 
 MOST = (1 << TEXEL_BITS) - 1  # a texel's largest number
 _WRAPS = (1 << WRAP_BITS) - 1

@@ -8,15 +8,16 @@ import numpy as np
 
 from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.trace.compile.compiled import inlined
-from lucida.renderer.trace.reference.intersect import (
+
+from .intersect import (
     box_ray,
     enter_box,
     hit_sphere,
     hit_triangle,
     sheared_ray,
 )
-from lucida.renderer.trace.reference.shade import passes
-from lucida.renderer.trace.reference.vectors import minus
+from .shade import passes
+from .vectors import minus
 
 
 class Tree(NamedTuple):

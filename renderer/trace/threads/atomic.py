@@ -12,8 +12,9 @@ from llvmlite import ir
 from numba.core import types
 
 from lucida.renderer.trace.compile.emit import emitted, instruction
-from lucida.renderer.trace.threads.thread_pool import CANCELLED, DONE, NEXT
 from lucida.renderer.trace.vector.types import INT64, first_address
+
+from .thread_pool import CANCELLED, DONE, NEXT
 
 
 def _address(builder, control, index):

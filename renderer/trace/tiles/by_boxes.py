@@ -15,7 +15,6 @@ import numpy as np
 from lucida.renderer.trace.bvh.bvh16 import WIDTH
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import choose, emitted
-from lucida.renderer.trace.tiles.tile import TILE, keep_hits, nearest_key_of, pixel_points
 from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
@@ -28,6 +27,8 @@ from lucida.renderer.trace.vector.lanes import (
     vmin,
 )
 from lucida.renderer.trace.vector.memory import store
+
+from .tile import TILE, keep_hits, nearest_key_of, pixel_points
 
 SMALL_PIXELS = np.float32(16)  # a rectangle with more is not small
 ROUND = 2  # pixels of each lane that are tested before hits are stored

@@ -14,8 +14,6 @@ import numpy as np
 from lucida.renderer.trace.bvh.bvh16 import WIDTH
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import emitted
-from lucida.renderer.trace.tiles.footprint import open_pixels
-from lucida.renderer.trace.tiles.tile import keep_hits, nearest_key_of, pixel_point
 from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
@@ -26,6 +24,9 @@ from lucida.renderer.trace.vector.lanes import (
     smallest,
 )
 from lucida.renderer.trace.vector.memory import load
+
+from .footprint import open_pixels
+from .tile import keep_hits, nearest_key_of, pixel_point
 
 FEW_PIXELS = 8
 

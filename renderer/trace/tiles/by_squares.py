@@ -15,18 +15,6 @@ from lucida.renderer.trace.bvh.instances import HAS_HOLES
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import emitted
 from lucida.renderer.trace.compile.stage import call_apart
-from lucida.renderer.trace.tiles.smooth import barycentrics, vertices_of
-from lucida.renderer.trace.tiles.texture import are_holes
-from lucida.renderer.trace.tiles.tile import (
-    SQUARE,
-    TILE,
-    coordinates,
-    from_first_pixel,
-    nearest_key,
-    scratch_of,
-    set_hits,
-    square_points,
-)
 from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
@@ -42,6 +30,19 @@ from lucida.renderer.trace.vector.lanes import (
 )
 from lucida.renderer.trace.vector.math import store3
 from lucida.renderer.trace.vector.memory import load, store
+
+from .smooth import barycentrics, vertices_of
+from .texture import are_holes
+from .tile import (
+    SQUARE,
+    TILE,
+    coordinates,
+    from_first_pixel,
+    nearest_key,
+    scratch_of,
+    set_hits,
+    square_points,
+)
 
 _E0, _E1, _E2, _KEY = range(4)  # a triangle's functions, in the order of their coefficients
 

@@ -18,8 +18,6 @@ from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import emitted
 from lucida.renderer.trace.rays.traverse import any_hit, closest_hit
 from lucida.renderer.trace.reference.vectors import minus, plus, times, triple
-from lucida.renderer.trace.tiles.smooth import triple_of_lane
-from lucida.renderer.trace.tiles.surface import Pixels
 from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
@@ -37,6 +35,9 @@ from lucida.renderer.trace.vector.math import (
     store3,
 )
 from lucida.renderer.trace.vector.memory import load, shifted, store
+
+from .smooth import triple_of_lane
+from .surface import Pixels
 
 
 class Effects(NamedTuple):

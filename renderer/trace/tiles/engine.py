@@ -22,15 +22,16 @@ from lucida.renderer.trace.compile.stage import StagedCode, new_room
 from lucida.renderer.trace.rays.query import Vectors, closest_hits
 from lucida.renderer.trace.reference.kernel import shade_rays
 from lucida.renderer.trace.threads.thread_pool import Control, Team, cancelled_control
-from lucida.renderer.trace.tiles.cells import cells_of
-from lucida.renderer.trace.tiles.effects import Effects, effects_of
-from lucida.renderer.trace.tiles.kernel import trace_packets
-from lucida.renderer.trace.tiles.lens_table import NO_FRAMES, LensTable, lens_table
-from lucida.renderer.trace.tiles.surface import SceneArrays, scene_arrays
-from lucida.renderer.trace.tiles.texture import NO_TEXTURES, PacketTextures
-from lucida.renderer.trace.tiles.variants import Variant, variant_of
-from lucida.renderer.trace.tiles.view import PacketView, packet_view
-from lucida.renderer.trace.tiles.write import writing_stage
+
+from .cells import cells_of
+from .effects import Effects, effects_of
+from .kernel import trace_packets
+from .lens_table import NO_FRAMES, LensTable, lens_table
+from .surface import SceneArrays, scene_arrays
+from .texture import NO_TEXTURES, PacketTextures
+from .variants import Variant, variant_of
+from .view import PacketView, packet_view
+from .write import writing_stage
 
 _ONE_TEXEL = np.zeros(1, np.int32)
 _ONE_TEXEL.setflags(write=False)

@@ -24,7 +24,10 @@ import numpy as np
 
 from lucida.renderer.trace.bvh.bvh16 import WIDTH
 from lucida.renderer.trace.compile.emit import choose, emitted, greater, i64, lesser
-from lucida.renderer.trace.tiles.tile import (
+from lucida.renderer.trace.vector.lanes import LANES, bits, fma, i32_of, splat, vmax, vmin
+from lucida.renderer.trace.vector.memory import load
+
+from .tile import (
     AHEAD,
     BEHIND,
     BOTTOM,
@@ -34,8 +37,6 @@ from lucida.renderer.trace.tiles.tile import (
     TOP,
     largest_of_plane,
 )
-from lucida.renderer.trace.vector.lanes import LANES, bits, fma, i32_of, splat, vmax, vmin
-from lucida.renderer.trace.vector.memory import load
 
 # A footprint: bits 0 to 15 are the tile's squares; then come, with four bits each, the first and
 # the last column, the first and the last row of the tile's pixels that it holds.

@@ -13,17 +13,18 @@ from lucida.renderer.trace.arguments.image import BLOCK
 from lucida.renderer.trace.compile.compiled import kernel
 from lucida.renderer.trace.compile.stage import call_stage
 from lucida.renderer.trace.threads.atomic import count_done, is_cancelled, take_next
-from lucida.renderer.trace.tiles.lens_frame import (
+from lucida.renderer.trace.vector.lanes import LANES
+from lucida.renderer.trace.vector.memory import pointer, pointers, shifted
+
+from .lens_frame import (
     frames_of,
     room_before_scratch,
     set_frame,
     tile_view,
 )
-from lucida.renderer.trace.tiles.tile import FLOATS, INTS, TILE, clear_tile, new_tile, scratch_of
-from lucida.renderer.trace.tiles.view import ROWS
-from lucida.renderer.trace.tiles.walk import walk_world
-from lucida.renderer.trace.vector.lanes import LANES
-from lucida.renderer.trace.vector.memory import pointer, pointers, shifted
+from .tile import FLOATS, INTS, TILE, clear_tile, new_tile, scratch_of
+from .view import ROWS
+from .walk import walk_world
 
 _ACROSS = BLOCK // TILE  # tiles of a block, in a row
 

@@ -14,20 +14,21 @@ import numpy as np
 from lucida.renderer.trace.bvh.instances import HAS_HOLES
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.reference.vectors import times
-from lucida.renderer.trace.tiles.by_boxes import PixelBoxes, pixel_boxes, sample_boxes
-from lucida.renderer.trace.tiles.by_pixels import FEW_PIXELS, cover_pixels, sample_pixels
-from lucida.renderer.trace.tiles.by_squares import cover_tile, rasterize_squares
-from lucida.renderer.trace.tiles.footprint import pixels_of
-from lucida.renderer.trace.tiles.tile import from_first_pixel
-from lucida.renderer.trace.tiles.triangle import (
+from lucida.renderer.trace.vector.lanes import bits, mask_of, smallest, splat
+from lucida.renderer.trace.vector.memory import load
+
+from .by_boxes import PixelBoxes, pixel_boxes, sample_boxes
+from .by_pixels import FEW_PIXELS, cover_pixels, sample_pixels
+from .by_squares import cover_tile, rasterize_squares
+from .footprint import pixels_of
+from .tile import from_first_pixel
+from .triangle import (
     Triangles,
     camera_corners,
     edge_function,
     homogeneous,
     triangle_keys,
 )
-from lucida.renderer.trace.vector.lanes import bits, mask_of, smallest, splat
-from lucida.renderer.trace.vector.memory import load
 
 SOME_PIXELS = 160  # in a larger footprint, most of a leaf's triangles are not small
 

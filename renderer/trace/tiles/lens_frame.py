@@ -8,8 +8,9 @@ as any other. Without a lens, all of this is compiled to nothing.
 from __future__ import annotations
 
 from lucida.renderer.trace.compile.emit import emitted, f32, i64, with_fields
-from lucida.renderer.trace.tiles.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from lucida.renderer.trace.vector.memory import as_float64, shifted
+
+from .view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 
 _RAY = 32  # float32: room for twelve float64, in whole cache lines
 

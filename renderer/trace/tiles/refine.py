@@ -17,10 +17,6 @@ from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import choose, emitted
 from lucida.renderer.trace.compile.stage import call_apart
 from lucida.renderer.trace.reference.vectors import cross, dot, minus
-from lucida.renderer.trace.tiles.smooth import camera_point
-from lucida.renderer.trace.tiles.sphere import is_near_hit, key_at, moment, sphere_ray
-from lucida.renderer.trace.tiles.tile import FIRST_SPHERE, NOTHING, scratch_of, square_points
-from lucida.renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
 from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
@@ -34,6 +30,11 @@ from lucida.renderer.trace.vector.lanes import (
 )
 from lucida.renderer.trace.vector.math import dot_lanes, fma_lanes
 from lucida.renderer.trace.vector.memory import load, store
+
+from .smooth import camera_point
+from .sphere import is_near_hit, key_at, moment, sphere_ray
+from .tile import FIRST_SPHERE, NOTHING, scratch_of, square_points
+from .view import ACROSS, DOWN, SHARED, VARYING
 
 
 @inlined

@@ -21,16 +21,6 @@ from lucida.renderer.scene.flat import (
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import choose, emitted, f32
 from lucida.renderer.trace.reference.vectors import each_times, minus, times, triple
-from lucida.renderer.trace.tiles.effects import (
-    brightest,
-    lit_pixels,
-    reflectance,
-    reflected_rays,
-    trace_square,
-)
-from lucida.renderer.trace.tiles.surface import find_surfaces, points_on
-from lucida.renderer.trace.tiles.texture import times_gloss
-from lucida.renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
 from lucida.renderer.trace.vector.lanes import (
     bits,
     fma,
@@ -54,6 +44,17 @@ from lucida.renderer.trace.vector.math import (
     splat_lanes,
 )
 from lucida.renderer.trace.vector.memory import load
+
+from .effects import (
+    brightest,
+    lit_pixels,
+    reflectance,
+    reflected_rays,
+    trace_square,
+)
+from .surface import find_surfaces, points_on
+from .texture import times_gloss
+from .view import ACROSS, DOWN, SHARED, VARYING
 
 _PER_NEAREST_LIGHT = np.float32(1) / np.float32(NEAREST_LIGHT)
 _SHORTEST_HALF_SQUARE = np.float32(SHORTEST_HALF**2)

@@ -13,9 +13,10 @@ from lucida.renderer.images import shared_numbers
 from lucida.renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from lucida.renderer.trace.compile.emit import choose, emitted, f32, f64, i32, i64
 from lucida.renderer.trace.reference.vectors import cross, dot, minus, plus, times, triple
-from lucida.renderer.trace.tiles.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from lucida.renderer.trace.vector.lanes import LANES, fma, lane_of, splat
 from lucida.renderer.trace.vector.memory import as_float64
+
+from .view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 
 OTHER_SIDE = np.float32(shared_numbers.OTHER_SIDE)
 _E0, _E1, _E2 = 0, 3, 6  # where edges are kept

@@ -15,15 +15,6 @@ import numpy as np
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import choose, emitted, f32
 from lucida.renderer.trace.reference.vectors import cross, dot, minus, plus, times, triple
-from lucida.renderer.trace.tiles.tile import (
-    FIRST_SPHERE,
-    SQUARE,
-    SQUARES,
-    depth_range,
-    set_hits,
-    square_points,
-)
-from lucida.renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
 from lucida.renderer.trace.vector.lanes import (
     LANES,
     bits,
@@ -36,6 +27,16 @@ from lucida.renderer.trace.vector.lanes import (
 )
 from lucida.renderer.trace.vector.math import fma_lanes, normalized_lanes, splat_lanes
 from lucida.renderer.trace.vector.memory import load
+
+from .tile import (
+    FIRST_SPHERE,
+    SQUARE,
+    SQUARES,
+    depth_range,
+    set_hits,
+    square_points,
+)
+from .view import ACROSS, DOWN, SHARED, VARYING
 
 _CHORD = np.float32(5e-7)  # relative: above the rounding errors of z and of the chord's middle
 

@@ -19,25 +19,6 @@ from lucida.renderer.trace.bvh.instances import HAS_COLORS, HAS_NORMALS, HAS_TEX
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import choose, emitted
 from lucida.renderer.trace.reference.vectors import minus, times, triple
-from lucida.renderer.trace.tiles.smooth import (
-    agrees,
-    barycentrics,
-    barycentrics_at,
-    blended,
-    have_normals,
-    vertices_of,
-)
-from lucida.renderer.trace.tiles.sphere import sphere_normal, sphere_normal_at
-from lucida.renderer.trace.tiles.texture import (
-    PacketTextures,
-    between_vertices,
-    glossy,
-    nowhere,
-    on_sphere,
-    textured,
-)
-from lucida.renderer.trace.tiles.tile import FIRST_SPHERE, NOTHING, coordinates
-from lucida.renderer.trace.tiles.view import ACROSS, DOWN, SHARED, VARYING
 from lucida.renderer.trace.vector.gather import gather
 from lucida.renderer.trace.vector.lanes import LANES, bits, lowest_bit, mask_of, select, splat
 from lucida.renderer.trace.vector.math import (
@@ -49,6 +30,26 @@ from lucida.renderer.trace.vector.math import (
     splat_lanes,
 )
 from lucida.renderer.trace.vector.memory import load
+
+from .smooth import (
+    agrees,
+    barycentrics,
+    barycentrics_at,
+    blended,
+    have_normals,
+    vertices_of,
+)
+from .sphere import sphere_normal, sphere_normal_at
+from .texture import (
+    PacketTextures,
+    between_vertices,
+    glossy,
+    nowhere,
+    on_sphere,
+    textured,
+)
+from .tile import FIRST_SPHERE, NOTHING, coordinates
+from .view import ACROSS, DOWN, SHARED, VARYING
 
 GRAZING = np.float32(shared_numbers.GRAZING)
 SHORTEST_MEAN_SQUARE = np.float32(shared_numbers.SHORTEST_MEAN**2)

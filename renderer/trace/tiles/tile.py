@@ -18,7 +18,6 @@ import numpy as np
 from lucida.renderer.trace.bvh.bvh16 import WIDTH
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import choose, emitted, f32, f64, i32, i64
-from lucida.renderer.trace.tiles.view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from lucida.renderer.trace.vector.gather import gather, prefetch
 from lucida.renderer.trace.vector.lanes import (
     LANES,
@@ -33,6 +32,8 @@ from lucida.renderer.trace.vector.lanes import (
     vfloor,
 )
 from lucida.renderer.trace.vector.memory import divider, load, shifted, store
+
+from .view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 
 TILE = 16  # pixels: side of a packet's square
 SQUARE = 4  # pixels: side of the square that a vector holds

@@ -24,9 +24,10 @@ import numpy as np
 from lucida.renderer.trace.bvh.bvh16 import CORNERS, WIDTH
 from lucida.renderer.trace.compile.emit import choose, emitted, f64
 from lucida.renderer.trace.reference.vectors import minus, plus, triple
-from lucida.renderer.trace.tiles.view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 from lucida.renderer.trace.vector.lanes import bits, fma, select, splat, to_f32, to_f64, vabs, vmax
 from lucida.renderer.trace.vector.math import load3, select_lanes
+
+from .view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 
 # A triangle's volume is a sum of terms that can be far larger than the sum, if the triangle is seen
 # edge-on, or is a vast plain seen from just above. If they are larger by DOUBTFUL, float32 has too

@@ -27,8 +27,9 @@ from numpy.typing import NDArray
 from lucida.renderer.trace.arguments.image import Rows
 from lucida.renderer.trace.arguments.view import KernelView
 from lucida.renderer.trace.bvh.instances import IS_SINGLE_SIDED, Instances
-from lucida.renderer.trace.tiles.cells import Cells, are_blurred
-from lucida.renderer.trace.tiles.lens_table import LensTable
+
+from .cells import Cells, are_blurred
+from .lens_table import LensTable
 
 # A space's numbers: an origin o, near the eye; for X, Y and Z a row (a, b, c, d) of the affine map
 # a (p - o)_x + b (p - o)_y + c (p - o)_z + d; and the largest |p - o| of a coordinate.

@@ -14,19 +14,20 @@ import numpy as np
 from lucida.renderer.trace.bvh.bvh16 import BOX, CORNERS, FIRST_LEAF, WIDTH
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import choose, emitted, i64
-from lucida.renderer.trace.tiles.footprint import (
+from lucida.renderer.trace.vector.gather import prefetch
+from lucida.renderer.trace.vector.lanes import LANES, bits, lowest_bit
+from lucida.renderer.trace.vector.memory import store
+
+from .footprint import (
     ANY_DEPTH,
     WHOLE_TILE,
     children_in_tile,
     open_squares,
 )
-from lucida.renderer.trace.tiles.leaf import rasterize_leaf
-from lucida.renderer.trace.tiles.lens_frame import turn_rows
-from lucida.renderer.trace.tiles.sphere import intersect_sphere
-from lucida.renderer.trace.tiles.tile import set_space
-from lucida.renderer.trace.vector.gather import prefetch
-from lucida.renderer.trace.vector.lanes import LANES, bits, lowest_bit
-from lucida.renderer.trace.vector.memory import store
+from .leaf import rasterize_leaf
+from .lens_frame import turn_rows
+from .sphere import intersect_sphere
+from .tile import set_space
 
 
 @emitted

@@ -15,22 +15,6 @@ from lucida.renderer.trace.compile.compiled import inlined, kernel
 from lucida.renderer.trace.compile.emit import lesser
 from lucida.renderer.trace.compile.stage import StagedCode, new_room, prepared
 from lucida.renderer.trace.reference.vectors import triple
-from lucida.renderer.trace.tiles.effects import Effects
-from lucida.renderer.trace.tiles.lens_frame import is_later_frame, is_own_pixel, tile_view
-from lucida.renderer.trace.tiles.refine import packet_depths, refine_square
-from lucida.renderer.trace.tiles.shade import add_reflections, shade_square
-from lucida.renderer.trace.tiles.surface import SceneArrays, find_surfaces, points_on, square_rays
-from lucida.renderer.trace.tiles.tile import (
-    NOTHING,
-    SQUARE,
-    SQUARES,
-    TILE,
-    new_tile,
-    own_parameters,
-    scratch_of,
-    square_points,
-)
-from lucida.renderer.trace.tiles.view import PacketView
 from lucida.renderer.trace.vector.lanes import LANES, bits, select, splat
 from lucida.renderer.trace.vector.math import load3, splat_lanes
 from lucida.renderer.trace.vector.memory import (
@@ -43,6 +27,23 @@ from lucida.renderer.trace.vector.memory import (
     store_square3,
     stream,
 )
+
+from .effects import Effects
+from .lens_frame import is_later_frame, is_own_pixel, tile_view
+from .refine import packet_depths, refine_square
+from .shade import add_reflections, shade_square
+from .surface import SceneArrays, find_surfaces, points_on, square_rays
+from .tile import (
+    NOTHING,
+    SQUARE,
+    SQUARES,
+    TILE,
+    new_tile,
+    own_parameters,
+    scratch_of,
+    square_points,
+)
+from .view import PacketView
 
 
 def writing_stage(

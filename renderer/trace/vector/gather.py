@@ -12,7 +12,8 @@ from numba.core import types
 from numba.core.errors import TypingError
 
 from lucida.renderer.trace.compile.emit import instruction, target
-from lucida.renderer.trace.vector.types import (
+
+from .types import (
     I32,
     INT32,
     INT64,

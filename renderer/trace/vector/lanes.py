@@ -22,7 +22,8 @@ from numba.core import types
 from numba.core.errors import TypingError
 
 from lucida.renderer.trace.compile.emit import i32, instruction, target
-from lucida.renderer.trace.vector.types import (
+
+from .types import (
     F32,
     F64,
     I1,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from lucida.renderer.trace.compile.emit import emitted, f32
-from lucida.renderer.trace.vector.lanes import (
+
+from .lanes import (
     bits_of_f32,
     f32_of,
     f32_of_bits,
@@ -18,8 +19,8 @@ from lucida.renderer.trace.vector.lanes import (
     vfloor,
     vmax,
 )
-from lucida.renderer.trace.vector.memory import load, store
-from lucida.renderer.trace.vector.types import LANES
+from .memory import load, store
+from .types import LANES
 
 _HALF_ROOT = 0x3F3504F3  # the bits of sqrt(1/2)
 _QUARTER_PI = np.pi / 4

@@ -15,7 +15,8 @@ from numba.core import types
 from numba.core.errors import TypingError
 
 from lucida.renderer.trace.compile.emit import BaseTuple, emitted, instruction, target
-from lucida.renderer.trace.vector.types import (
+
+from .types import (
     ELEMENT,
     INT32,
     INT64,
