@@ -264,7 +264,7 @@ def test_rows_of_an_image_lie_in_it():
     for rows in ((0, 1), (3, 8), (0, 8)):
         assert check_size((4, 8), rows) == (4, 8)
     for rows in ((2, 2), (-1, 2), (7, 9)):
-        with pytest.raises(LucidaError, match="rows: .* not in 0 to 8"):
+        with pytest.raises(LucidaError, match=r"rows: .* not in 0 to 8"):
             check_size((4, 8), rows)
 
 
