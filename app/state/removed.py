@@ -81,6 +81,7 @@ REMOVED: dict[str, Removed] = {
     ),
     "photograph.lay": Removed("a photograph is laid over the images", "over"),
     "your_code.tasks": Removed("`lucida check --tasks` asks a course's own tasks", ""),
+    "your_code.task": Removed("the view shows viewing_ray; `lucida check` tries other tasks", ""),
     "images.values": Removed("a pixel's colour is written as the bytes that are shown", "bytes"),
     "images.pixel_size": Removed("images.resolution sets the number of large pixels", 1),
     "images.tinted": Removed("all of a colour is shown", False),
