@@ -100,6 +100,7 @@ REMOVED: dict[str, Removed] = {
 
 # Values by the option's path and the old value, such as ("language", "c").
 REPLACED: dict[tuple[str, Any], Replaced] = {
+    ("preferences.theme", "contrast"): Replaced("dark", "F9 makes its colours stronger"),
     ("language", "c"): Replaced("python", "programs are in Python or Julia"),
     ("compare.mode", "signed"): Replaced("absolute", "a difference has no sign"),
     ("compare.mode", "flip"): Replaced("wipe", "the divider shows either image"),

@@ -45,14 +45,12 @@ class Arrangement:
     """The arrangement of the windows inside the window.
 
     layout: its name. visible: the names of the shown views. sections: the unfolded parts of a
-    view, by the view's name. maximised: the name of the view that covers all others, focused: of
-    the one that has the keyboard, or "".
+    view, by the view's name. focused: the name of the view that has the keyboard, or "".
     """
 
     layout: str = ""
     visible: tuple[str, ...] = ()
     sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    maximised: str = ""
     focused: str = ""
 
 
