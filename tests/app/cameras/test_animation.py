@@ -72,6 +72,8 @@ def test_between_the_projections_the_plane_of_the_focus_stands_still(
     was = seen(View(camera, fit).for_size(SIZE), plane)
     np.testing.assert_allclose(seen(between.for_size(SIZE), plane), was, atol=1e-3)
     if not between.camera.is_parallel:
+        height, first, last = (np.ptp(one.viewport[2:]) for one in (between.camera, *ends))
+        assert min(first, last) - 1e-9 <= height <= max(first, last) + 1e-9
         away = [np.linalg.norm(np.subtract(c.eye, FOCUS)) for c in (between.camera, camera)]
         assert away[0] >= away[1] - 1e-9
 

@@ -103,6 +103,7 @@ def test_a_lens_is_put_on_and_taken_off():
         (("--lens", "browm"), "'browm' is unknown"),
         (("--lens", "brown:k9=1"), "k9"),
         (("--lens", "brown:k1=x"), "'x' is not a number"),
+        (("--lens", "brown:k1"), "'k1' has no value; give k1=0.1"),
         (("--lens", "brown:k1=0.1,k1=0.2"), "given twice"),
         (("--lens", "equirectangular:k1=1"), "leave it out"),
     ],

@@ -144,6 +144,11 @@ def test_what_is_framed_is_in_the_picture(camera: Camera, points: list) -> None:
         assert filled == pytest.approx(1 / MARGIN, rel=1e-3) or across.max() < 0.01
 
 
+def test_the_eye_stays_before_the_nearest_point_by_a_part_of_the_depth() -> None:
+    points = [(0.0, 0.0, 10.0), (0.0, 0.0, 30.0)]
+    assert framed(Camera(), points).eye == pytest.approx((0, 0, 31), abs=0.01)
+
+
 def test_nothing_to_frame_leaves_the_camera() -> None:
     assert framed(Camera(eye=(1, 2, 3)), np.zeros((0, 3))) == Camera(eye=(1, 2, 3))
 

@@ -2,7 +2,13 @@
 
 import pytest
 
-from lucida.renderer.images.coarseness import FACTORS, STILL_S, Coarseness, reduced
+from lucida.renderer.images.coarseness import (
+    FACTORS,
+    MOST_MISSES,
+    STILL_S,
+    Coarseness,
+    reduced,
+)
 
 PIXELS, BUDGET_S, FRAME_S = 1280 * 720, 0.006, 1 / 60
 
@@ -54,6 +60,25 @@ def test_one_slow_image_changes_nothing():
     factors = motion(coarseness, 0.0, 4e-8, 5)
     coarseness.measured(factors[-1], PIXELS // factors[-1] ** 2, 1.0)
     assert set(motion(coarseness, 5 * FRAME_S, 4e-8, 20)) == {factors[-1]}
+
+
+def test_a_longer_time_counts_half_and_a_shorter_one_whole():
+    coarseness = Coarseness(BUDGET_S)
+    for share in (0.5, 1.4):  # of the budget: 0.95 after both
+        coarseness.measured(1, PIXELS, share * BUDGET_S)
+    assert coarseness.changed(PIXELS, 0.0) == 1
+    coarseness.measured(1, PIXELS, 1.4 * BUDGET_S)  # 1.175
+    assert coarseness.changed(PIXELS, STILL_S) == 2
+    coarseness.measured(1, PIXELS, 0.9 * BUDGET_S)
+    assert coarseness.changed(PIXELS, 2 * STILL_S) == 1
+
+
+def test_the_first_image_of_a_motion_is_one_miss():
+    coarseness = Coarseness(BUDGET_S)
+    coarseness.changed(PIXELS, 0.0)
+    for frame in range(1, MOST_MISSES + 1):
+        coarseness.measured(1, PIXELS, 100 * BUDGET_S)
+        assert coarseness.changed(PIXELS, frame * FRAME_S) == (2 if frame == MOST_MISSES else 1)
 
 
 def test_nothing_measured_is_as_coarse_as_it_is_told():

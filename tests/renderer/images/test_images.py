@@ -9,6 +9,7 @@ import OpenEXR
 import pytest
 from PIL import Image
 
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images import (
     ENDINGS,
     encode_srgb,
@@ -19,7 +20,8 @@ from lucida.renderer.images import (
     write_image,
     write_picture,
 )
-from lucida.renderer.images.frame import Frame
+from lucida.renderer.images.frame import Frame, check_size
+from lucida.renderer.images.samples import supersampled
 from lucida.renderer.system.errors import LucidaError
 
 WIDTH, HEIGHT = 11, 5  # neither even nor square, and no whole number of bytes of bits a row
@@ -133,6 +135,10 @@ def test_pgm_holds_the_gray_and_pbm_cuts_it(tmp_path, frame):
             np.testing.assert_array_equal(image, gray)
         with Image.open(tmp_path / "a.pbm") as image:
             np.testing.assert_array_equal(image, gray >= 128)
+    edge = np.full((1, 2, 3), [[[127], [128]]], np.uint8)
+    write_picture(tmp_path / "edge.pbm", edge)
+    with Image.open(tmp_path / "edge.pbm") as image:
+        np.testing.assert_array_equal(image, [[False, True]])
 
 
 def test_npy_keeps_every_bit(tmp_path, frame):
@@ -252,3 +258,20 @@ def test_a_link_is_followed(tmp_path, frame):
     (tmp_path / "dangling.npy").symlink_to("none/file")
     with pytest.raises(LucidaError, match="does not exist"):
         write_image(tmp_path / "dangling.npy", frame)
+
+
+def test_rows_of_an_image_lie_in_it():
+    for rows in ((0, 1), (3, 8), (0, 8)):
+        assert check_size((4, 8), rows) == (4, 8)
+    for rows in ((2, 2), (-1, 2), (7, 9)):
+        with pytest.raises(LucidaError, match=r"rows: .* not in 0 to 8"):
+            check_size((4, 8), rows)
+
+
+def test_the_time_of_an_image_is_that_of_all_its_samples():
+    times = iter([1.0, 2.0, 4.0, 8.0])
+
+    def draw(camera, size, channels, progress):
+        return Frame(size, np.zeros((1, 2, 3), np.float32), time_s=next(times))
+
+    assert supersampled(draw, Camera(), (2, 1), ("color",), 4).time_s == 15.0

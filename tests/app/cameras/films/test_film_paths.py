@@ -50,6 +50,8 @@ def test_keys_are_passed_in_time(tmp_path):
     assert [camera == views[1].camera for camera in cameras] == [0, 0, 1, 1, 1, 1, 0]
     even = np.linalg.norm(np.subtract(cameras[1].eye, cameras[0].eye))
     assert np.linalg.norm(np.subtract(cameras[2].eye, cameras[1].eye)) == pytest.approx(even)
+    longer = [*keys, Key(views[3], 1.0)]
+    assert through(longer, FOCUS, SIZE, 9)[6::2] == [views[2].camera, views[3].camera]
     path = tmp_path / "keys.toml"
     path.write_text(keys_text(keys))
     assert load_keys(path) == keys

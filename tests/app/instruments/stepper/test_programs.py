@@ -76,6 +76,15 @@ def test_nothing_is_lit_before_and_after_a_run(run: LoopRun) -> None:
     assert seen == {0, 1, 2, 3}
 
 
+def test_each_run_passes_all_pixels_once_an_object_order_once_an_object() -> None:
+    last = SIZE[0] * SIZE[1] - 1
+    for run, times in zip(RUNS, (len(BALLS.t), 1), strict=True):
+        places = [run.at(part).pixel for part in np.linspace(0.001, 1 - 1e-9, 400)]
+        numbers = [row * SIZE[0] + column for row, column in places]
+        assert numbers[0] == 0 and numbers[-1] == max(numbers) == last
+        assert np.sum(np.diff(numbers) < 0) == times - 1
+
+
 def test_each_whole_number_of_the_option_is_a_run() -> None:
     for option, part in ((0.0, 0.0), (0.25, 0.25), (1.0, 1.0), (1.25, 0.25), (2.0, 1.0)):
         assert run_part(option) == part
