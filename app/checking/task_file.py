@@ -36,16 +36,16 @@ from .task_schema import ConventionsTable, TaskFile, TaskTable
 from .tasks import CAMERA_KINDS, MOST_CALLS, WITH_CAMERAS, CheckTask, Limits
 
 TASKS = 100
-# Fields of older files, and their values that may be ignored because they still hold. With others,
-# it would be another task.
+# Fields of older files, with the values that still hold. Other values made another task: such a
+# field is unknown.
 REMOVED: dict[str, tuple[Any, ...]] = {
     "vectorised": (True, False),
     "vectors": ("column",),
     "origin": ("exact",),
-    "pixel_origin": (),
     "at_threshold": (1,),
     "views": ([],),
 }
+REMOVED_KINDS = ("to-gray", "to-bitmap", "memory-offset")
 # Words that give the size of a parallel view.
 SIZED = {"left", "right", "viewport", "viewport_width", "viewport_height", "horizontal"}
 SIZED |= {"pixel00", "top_left", "bottom_left"}
@@ -89,7 +89,8 @@ def load_tasks(path: str | Path) -> TaskSet:
         notes = [f"{name} is ignored; see CHANGELOG.md" for name in _without_removed(tables)]
         if tables.get("network") is False:
             notes.append("network = false is not enforced: a container without a network does it")
-        return replace(_tasks(to_struct(tables, TaskFile)), notes=tuple(notes))
+        found = _tasks(to_struct(tables, TaskFile))
+        return replace(found, notes=(*notes, *found.notes))
     except LucidaError as error:
         raise located(error, Places(text), source) from None
 
@@ -99,8 +100,12 @@ def _tasks(file: TaskFile) -> TaskSet:
         raise LucidaError("tasks", f"holds {len(file.tasks)} tasks", f"give 1 to {TASKS}")
     _check_words("conventions.camera", file.conventions.camera or {}, CAMERA_WORDS)
     tasks: list[CheckTask] = []
+    notes = []
     for number, table in enumerate(file.tasks):
         field = f"tasks[{number}]"
+        if table.get("kind") in REMOVED_KINDS:
+            notes.append(f"{field}: {table['kind']} is no longer checked; see CHANGELOG.md")
+            continue
         entry: TaskTable = to_struct(table, TaskTable, field)
         with under(field):
             check_known("kind", entry.kind, KINDS)
@@ -112,27 +117,23 @@ def _tasks(file: TaskFile) -> TaskSet:
             tasks.append(task)
     limits = Limits()
     limits = Limits(file.seconds or limits.seconds, file.memory_mb or limits.memory_mb)
-    return TaskSet(tuple(tasks), limits)
+    return TaskSet(tuple(tasks), limits, tuple(notes))
 
 
 def _without_removed(tables: dict[str, Any]) -> tuple[str, ...]:
     """Delete the fields that may be ignored. Return their names."""
-    names = []
     tasks = tables.get("tasks")
-    places = {f"tasks[{k}]": table for k, table in enumerate(tasks if type(tasks) is list else ())}
-    for place, table in {"conventions": tables.get("conventions"), **places}.items():
-        table = table if isinstance(table, dict) else {}
-        if table.get("projection") == "both":
-            problem = "'both' is of an older version, and made another task"
-            remedy = "give two tasks, perspective and parallel"
-            raise LucidaError(f"{place}.projection", problem, remedy)
-        for name in filter(table.__contains__, REMOVED):
-            value = table.pop(name)
-            if value not in REMOVED[name]:
-                problem = f"{value!r} is of an older version, and made another task"
-                raise LucidaError(f"{place}.{name}", problem, "CHANGELOG.md says what remains")
-            names.append(name)
-    return tuple(dict.fromkeys(names))
+    places = [tables.get("conventions"), *(tasks if isinstance(tasks, list) else ())]
+    found = [
+        (table, name)
+        for table in places
+        if isinstance(table, dict)
+        for name, values in REMOVED.items()
+        if name in table and table[name] in values
+    ]
+    for table, name in found:
+        del table[name]
+    return tuple(dict.fromkeys(name for _, name in found))
 
 
 def _task(entry: TaskTable, file: TaskFile, base: CheckTask) -> CheckTask:
@@ -147,8 +148,6 @@ def _task(entry: TaskTable, file: TaskFile, base: CheckTask) -> CheckTask:
         "size": entry.size,
         "seed": file.seed if entry.seed is None else entry.seed,
         "feedback": entry.feedback or file.feedback,
-        "weights": entry.weights,
-        "stride": entry.stride,
         "projection": entry.projection,
     }
     _check_name("function", own["function"])
@@ -156,7 +155,6 @@ def _task(entry: TaskTable, file: TaskFile, base: CheckTask) -> CheckTask:
         base,
         points=entry.points,
         conventions=_conventions(entry, file.conventions, kind),
-        column_major=entry.order == "column-major",
         **{name: value for name, value in own.items() if value is not None},
     )
     if task.kind in WITH_CAMERAS:
@@ -169,8 +167,7 @@ def _task(entry: TaskTable, file: TaskFile, base: CheckTask) -> CheckTask:
 
 def _text(entry: TaskTable, kind: CheckKind) -> str | None:
     """Return a description where the built-in one would be wrong."""
-    others = (entry.arguments, entry.returns, entry.stride, entry.order, entry.weights)
-    if all(other is None for other in others):
+    if entry.arguments is None and entry.returns is None:
         return None
     answer = kind.answer if entry.returns is None else ", ".join(entry.returns)
     return f"See the course's own text. Give {answer}."

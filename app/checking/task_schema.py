@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from msgspec import Meta, field
 
 from lucida.app.ui.explaining.symbols import Notation
-from lucida.renderer.files.schema import Numbers3, StrictTable
+from lucida.renderer.files.schema import StrictTable
 
 from .tasks import Feedback
 
@@ -56,8 +56,6 @@ class TaskTable(ConventionsTable, kw_only=True):
     arguments: words, or name = "word".
     returns: words.
     cases: the number of generated cases.
-    weights: of to-gray.
-    order, stride: of memory-offset; stride is in bytes per pixel, or 1 to count pixels.
     """
 
     kind: str
@@ -74,9 +72,6 @@ class TaskTable(ConventionsTable, kw_only=True):
     cases: Annotated[int, Meta(ge=1, le=1000)] | None = None
     seed: Seed | None = None
     feedback: Feedback | None = None
-    weights: Numbers3 | None = None
-    order: Literal["row-major", "column-major"] | None = None
-    stride: int | None = None
 
 
 class TaskFile(StrictTable, kw_only=True):

@@ -15,7 +15,6 @@ from lucida.app.ui.explaining.symbols import Notation
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
-from lucida.renderer.images.shared_numbers import LUMINANCE
 
 from .conventions import Conventions
 
@@ -42,13 +41,11 @@ class Call:
 
     function: its name.
     arguments: names, for messages, and values, in their order.
-    as_arrays: lists are passed as NumPy arrays.
     notation: of the names in messages.
     """
 
     function: str
     arguments: tuple[tuple[str, Any], ...]
-    as_arrays: bool = False
     notation: Notation = "code"
 
 
@@ -101,8 +98,6 @@ class CheckTask:
     text: the description of the task for students.
     cameras: the kinds of generated cameras; count of them in total, from the seed.
     size: of the image; None for a small one for each camera.
-    weights: of to_gray.
-    column_major, stride: of memory_offset.
     notation: that of the function's arguments, of the text and of the diagnosis.
     """
 
@@ -119,9 +114,6 @@ class CheckTask:
     size: Size | None = None
     seed: int = SEED
     feedback: Feedback = "diagnosis"
-    weights: Vector = LUMINANCE
-    column_major: bool = False
-    stride: int = 1
     notation: Notation = "book"
 
 

@@ -26,12 +26,11 @@ class _Kind(msgspec.Struct):
 class _File(msgspec.Struct):
     groups: dict[str, dict[str, str]]
     parts: dict[str, dict[str, str]]
-    same: dict[str, list[str]]
     kinds: dict[str, _Kind]
 
 
 _FILE = msgspec.toml.decode(Path(__file__).with_suffix(".toml").read_bytes(), type=_File)
-GROUPS, PARTS, SAME = _FILE.groups, _FILE.parts, _FILE.same
+GROUPS, PARTS = _FILE.groups, _FILE.parts
 # The first cases of a kind, by its name; see kinds/first_cases.toml.
 FIRST_CASES = msgspec.toml.decode((Path(__file__).parent / "kinds/first_cases.toml").read_bytes())
 

@@ -148,7 +148,6 @@ class CheckKind(ABC):
     arguments: the default words, in order.
     answer: the description of a well-formed answer.
     returns: the words of the returned parts, if there are several.
-    as_arrays: Python code receives NumPy arrays.
     """
 
     name: str
@@ -158,7 +157,6 @@ class CheckKind(ABC):
     answer: str
     returns: tuple[str, ...] = ()
     return_words: Words = field(default_factory=dict)
-    as_arrays: bool = False
 
     @abstractmethod
     def cases(self, task: CheckTask) -> list[CheckCase]:
@@ -168,9 +166,7 @@ class CheckKind(ABC):
 
     def calls(self, task: CheckTask, cases: Cases) -> list[Call]:
         """Return the calls whose values answer the cases."""
-        return [
-            Call(task.function, case.arguments, self.as_arrays, task.notation) for case in cases
-        ]
+        return [Call(task.function, case.arguments, task.notation) for case in cases]
 
     @abstractmethod
     def read(self, task: CheckTask, case: CheckCase, value: Any) -> ArrayLike | None:

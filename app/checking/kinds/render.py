@@ -14,28 +14,55 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lucida.app.checking.cases import generator, rounded, shots
 from lucida.app.checking.conventions import Shot, camera_values
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.checking.words import described
 
-from .images import HALF_A_BYTE, ImageKind
-from .kind import Flags, named
+from .kind import Cases, CheckKind, Flags, Floats, array, named, text_of, wrong_numbers
 from .shapes import hits
 
 if TYPE_CHECKING:
     from numpy.random import Generator as Random
 
-Floats = NDArray[np.float64]
-
+HALF_A_BYTE = 0.5 / 255
 EDGE = 2e-3
 
 
-def _cases(task: CheckTask) -> list[CheckCase]:
-    random = generator(task)
-    return [_case(task, shot, random) for shot in shots(task)]
+class RenderKind(CheckKind):
+    def cases(self, task: CheckTask) -> list[CheckCase]:
+        random = generator(task)
+        return [_case(task, shot, random) for shot in shots(task)]
+
+    def wanted(self, task: CheckTask, case: CheckCase) -> str:
+        return f"numbers {' x '.join(map(str, np.shape(case.right)))}"
+
+    def read(self, task: CheckTask, case: CheckCase, value: Any) -> Floats | None:
+        image = array(value)
+        return image if image is not None and image.shape == np.shape(case.right) else None
+
+    def wrong(self, task: CheckTask, cases: Cases, given: Any) -> Flags:
+        pairs = zip(cases, given, strict=True)
+        return np.array([_wrong_pixels(case, image).any() for case, image in pairs], bool)
+
+    def first_wrong(self, task: CheckTask, case: CheckCase, answer: Any) -> tuple[str, str, str]:
+        """Return the first wrong pixel: its place, the correct value and the given one."""
+        marks = _wrong_pixels(case, answer)
+        i, j = (int(part) for part in np.argwhere(marks)[0])
+        height, width = marks.shape
+        where = f"{int(marks.sum())} of {marks.size} pixels; the first: row {i}, column {j} "
+        where += f"(from 0) of the array, {width}x{height} pixels"
+        right, given = (text_of(np.asarray(image)[i, j].tolist()) for image in (case.right, answer))
+        return where, right, given
+
+
+RENDER = RenderKind(**described("render"))
+
+
+def _wrong_pixels(case: CheckCase, image: Floats) -> Flags:
+    """Return the wrong pixels of an image, bool (H, W)."""
+    return np.asarray(wrong_numbers(case, image).any(axis=2) & case.values["judged"])
 
 
 def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
@@ -56,9 +83,6 @@ def _case(task: CheckTask, shot: Shot, random: Random) -> CheckCase:
         target=shot.target,
         up=shot.up,
     )
-
-
-RENDER = ImageKind(**described("render"), make=_cases)
 
 
 def rendered(

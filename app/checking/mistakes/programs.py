@@ -35,34 +35,11 @@ def _render_program(task: RayTask) -> Program:
 
 
 def _value_program(task: CheckTask) -> Program:
-    values: dict[str, str] = {}
-    facts: set[str] = set()
-    match task.kind:
-        case "basis":
-            values, facts = {"back": "eye - target"}, {"target"}
-        case "to-gray":
-            weights = (f"{weight:g}" for weight in task.weights)
-            values = dict(zip(("red", "green", "blue"), weights, strict=True))
-        case "memory-offset":
-            values, facts = _offset_values(task)
-    lines, mistakes = part(task.kind, values, facts)
+    lines, mistakes = part(task.kind, {"back": "eye - target"}, {"target"})
     if task.kind == "basis":
         answer, more = part("answer")
         lines, mistakes = lines + answer, mistakes + more
     return Program(tuple(lines), tuple(mistakes), (lines[-1].code.partition(" ")[0],))
-
-
-def _offset_values(task: CheckTask) -> tuple[dict[str, str], set[str]]:
-    base, stride = task.conventions.base, task.stride
-    i, j = ("i", "j") if base == 0 else (f"(i - {base})", f"(j - {base})")
-    place, other = f"{i} * width + {j}", f"{j} * height + {i}"
-    values = {"i": i, "j": j, "base": str(base), "stride": str(stride)}
-    values |= {"place": place, "other": other, "order": "row after row"}
-    values["scaled"] = f" * {stride}" if stride != 1 else ""
-    if task.column_major:
-        values |= {"place": other, "other": place, "order": "column after column"}
-    holds = {"base": base != 0, "column-major": task.column_major, "stride": stride != 1}
-    return values, {fact for fact, is_true in holds.items() if is_true}
 
 
 def known_values(task: CheckTask, case: CheckCase) -> dict[str, Any]:
@@ -73,8 +50,6 @@ def known_values(task: CheckTask, case: CheckCase) -> dict[str, Any]:
         name: np.asarray(value, float) if isinstance(value, list) and name != "objects" else value
         for name, value in case.values.items()
     }
-    if task.kind == "to-gray":
-        known |= dict(zip(("red", "green", "blue"), np.moveaxis(known["rgb"], -1, 0), strict=True))
     return known | SHAPES
 
 

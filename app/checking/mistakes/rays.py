@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from lucida.app.checking.conventions import camera_words, pixel_words
 from lucida.app.checking.tasks import CheckTask
-from lucida.app.checking.words import PARTS, SAME
+from lucida.app.checking.words import PARTS
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.pixels import Indexing
@@ -50,7 +50,7 @@ UNITS, ANGLES = VALUES["units"], VALUES["angles"]
 _VIEWPORT = {"left", "right", "bottom", "top"}
 _MATRICES = {"camera_to_world", "world_to_camera"}
 # The translation of a task's words into those of the lines.
-_SAME: Mapping[str, Iterable[str]] = {**PARTS, **SAME}
+_SAME: Mapping[str, Iterable[str]] = {**PARTS, "row": ["i"], "column": ["j"]}
 _PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
 _FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
 _KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", "aspect"}

@@ -27,7 +27,6 @@ Errors = tuple[float, float]  # of the given answers, and of the correct ones
 # well above those of float64 (2^-53) and of float32 (2^-24), respectively.
 STRICT, LOOSE = 1e-11, 2.0**-18
 FEW = 24  # rays that rule out most mistakes
-EXACT = ("to-bitmap", "memory-offset")  # kinds whose answers must be equal
 NOTHING_ALIKE = np.inf, np.inf
 
 
@@ -119,7 +118,7 @@ class ValueTrial:
         self._answers = np.asarray(given, float), np.asarray(case.right, float)
         self._known = known_values(task, case)
         self._judged = case.values.get("judged", ...)  # of an image: the pixels that count
-        self._tolerance = 0.0 if task.kind in EXACT else max(case.tolerance, 1e-300)
+        self._tolerance = max(case.tolerance, 1e-300)
 
     def errors(self, program: Program, mistakes: Mistakes) -> Errors:
         """Return how far the given answer, and the correct one, are from the program's, scaled so
@@ -139,8 +138,6 @@ class ValueTrial:
         """Return the distance. The limit is the tolerance, or LOOSE of the largest number. Equal
         NaN and inf count as equal: both divide by zero in the same places.
         """
-        if not self._tolerance:
-            return 0.0 if np.array_equal(answer, made, equal_nan=True) else np.inf
         largest = float(np.abs(made[np.isfinite(made)]).max(initial=0.0))
         with np.errstate(invalid="ignore"):
             same = (answer == made) | (np.isnan(answer) & np.isnan(made))

@@ -87,7 +87,7 @@ FUNCTIONS: dict[str, Any] = {
 } | {
     "cross": np.cross, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "tan": np.tan,
     "atan": np.arctan, "atan2": np.arctan2, "radians": np.radians, "degrees": np.degrees,
-    "where": np.where, "floor": np.floor, "mean": np.mean,
+    "where": np.where, "floor": np.floor,
     "minimum": np.minimum, "maximum": np.maximum,
     "inf": np.inf,
 }  # fmt: skip

@@ -145,7 +145,7 @@ class FileStudent(ProgramStudent):
         self, program: StudentProgram, calls: Sequence[Call], values: list[Any], end: float
     ) -> Failure | None:
         """Append the answers to `values`. Return the reason if the run ended early."""
-        asked = [(call.function, call.arguments, call.as_arrays) for call in calls]
+        asked = [(call.function, call.arguments) for call in calls]
         program.send(json.dumps(asked).encode() + b"\n")
         try:
             for call in calls:

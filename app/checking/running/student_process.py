@@ -38,8 +38,8 @@ def main():
         except BaseException as error:
             channel.send("f", {**student.failure(error), "files": student.files(all_of=True)})
         while True:
-            for name, arguments, as_arrays in channel.next():
-                given = [made(value, word, as_arrays) for word, value in arguments]
+            for name, arguments in channel.next():
+                given = [made(value, word) for word, value in arguments]
                 channel.send(*student.called(name, given))
     except MemoryError:
         os._exit(_MEMORY_STATUS)
@@ -237,16 +237,12 @@ def kind_of(name):
     return type(name.title().replace("_", "") or "Values", (Values,), {})
 
 
-def made(value, name, as_array=False):
-    """Return an argument: objects for dicts, and vectors, tuples or NumPy arrays for lists."""
+def made(value, name):
+    """Return an argument: objects for dicts, and vectors or tuples for lists."""
     if isinstance(value, dict):
         return kind_of(name)(**{key: made(part, key) for key, part in value.items()})
     if not isinstance(value, list):
         return value
-    if as_array:
-        import numpy
-
-        return numpy.array(value)
     if all(isinstance(part, numbers.Number) for part in value):
         return Vector(value)
     one = name[:-1] if name.endswith("s") else name

@@ -20,8 +20,21 @@ import lucida
 from lucida.app.checking.running.account import account
 from lucida.app.cli import main
 
-TASKS = 'seed = 4711\n[[tasks]]\nkind = "memory-offset"\npoints = 2\n'
-RIGHT = "def memory_offset(i, j, width): return i * width + j\n"
+TASKS = 'seed = 4711\n[[tasks]]\nkind = "basis"\npoints = 2\n'
+RIGHT = """
+def cross(a, b):
+    return [a[k - 2] * b[k - 1] - a[k - 1] * b[k - 2] for k in range(3)]
+
+
+def unit(a):
+    return [x / sum(y * y for y in a) ** 0.5 for x in a]
+
+
+def basis(eye, target, up):
+    w = unit(eye - target)
+    u = unit(cross(up, w))
+    return u, cross(w, u), w
+"""
 USER = f"lucida-test-{os.getpid()}"
 CHEATS = {
     "writes the results": "open(ROOT + '/results/results.json', 'w').write('999')",
@@ -97,7 +110,7 @@ def test_results_wait_with_zero_points_for_the_end_of_the_program(root: Path) ->
     (root / "results").chmod(0o755)
     (root / "submission" / "rays.py").write_text(f"ROOT = {str(root)!r}\n{waits}{RIGHT}", "utf-8")
     results = root / "results" / "results.json"
-    words = ["check", str(root / "submission" / "rays.py"), "--task", "memory-offset"]
+    words = ["check", str(root / "submission" / "rays.py"), "--task", "basis"]
     words += ["--as", USER, "--python", "/usr/bin/python3", "--json", str(results)]
     assert main(words) == 0
     (test,) = json.loads(results.read_text("utf-8"))["tests"]
@@ -107,7 +120,7 @@ def test_results_wait_with_zero_points_for_the_end_of_the_program(root: Path) ->
 def test_who_cannot_run_a_program(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path, tasks = root / "submission" / "rays.py", root / "source" / "hw2.toml"
     path.write_text(RIGHT, "utf-8")
-    words = ["check", str(path), "--task", "memory-offset", "--as"]
+    words = ["check", str(path), "--task", "basis", "--as"]
     with subprocess.Popen(["sleep", "1000"], user=USER) as sleeping:
         assert main([*words, USER]) == 2
         assert f"{USER} has processes already; make a user" in capsys.readouterr().err

@@ -10,29 +10,32 @@ from lucida.app.cli import main
 from tests.support.mock_gradescope import Shown, published
 
 RIGHT = """
-def memory_offset(i, j, width):
-    return i * width + j
+def basis(eye, target, up):
+    import numpy as np
+    w = np.subtract(eye, target) / np.linalg.norm(np.subtract(eye, target))
+    u = np.cross(up, w) / np.linalg.norm(np.cross(up, w))
+    return u, np.cross(w, u), w
 """
 WRONG = """
-def memory_offset(i, j, width):
-    return i + j * width
+def basis(eye, target, up):
+    return eye, target, up
 """
-PRINTS = WRONG.replace("    return", '    print("offset \\x00 of", i, j)\n    return')
+PRINTS = WRONG.replace("    return", '    print("eye \\x00 of", eye)\n    return')
 RAISES = """
-def memory_offset(i, j, width):
-    raise ValueError(f"no {i}")
+def basis(eye, target, up):
+    raise ValueError(f"no {up[0]}")
 """
 NOT_A_NUMBER = """
-def memory_offset(i, j, width):
+def basis(eye, target, up):
     return float("nan")
 """
 TASKS = """
 feedback = "{feedback}"
 [[tasks]]
-kind = "memory-offset"
+kind = "basis"
 points = 2
 [[tasks]]
-kind = "to-bitmap"
+kind = "hit-sphere"
 points = 1
 feedback = "diagnosis"
 """
@@ -56,8 +59,8 @@ def test_right_and_a_function_that_is_missing(tmp_path: Path) -> None:
     status, shown = submitted(tmp_path, RIGHT)
     assert status == 2 and shown.score == 2.0
     (name, verdict, _), (_, missing, why) = shown.tests
-    assert name.startswith("memory-offset") and verdict == "passed"
-    assert missing == "failed" and "to_bitmap" in why
+    assert name.startswith("basis") and verdict == "passed"
+    assert missing == "failed" and "hit_sphere" in why
 
 
 def test_wrong_with_what_was_printed(tmp_path: Path) -> None:
@@ -65,15 +68,15 @@ def test_wrong_with_what_was_printed(tmp_path: Path) -> None:
     assert shown.score == 0.0
     _, verdict, output = shown.tests[0]
     assert verdict == "failed" and "correct: " in output and "given: " in output
-    assert "offset \\x00 of 0 " in output
+    assert "eye \\x00 of " in output
 
 
 @pytest.mark.parametrize(
     ("code", "says"),
     [
-        (RAISES, "ValueError: no 0"),
-        (NOT_A_NUMBER, "memory_offset"),
-        ("def memory_offset(:", "line 1"),
+        (RAISES, "ValueError: no "),
+        (NOT_A_NUMBER, "basis"),
+        ("def basis(:", "line 1"),
         ("import sys; sys.exit(3)", "3"),
     ],
 )
@@ -102,6 +105,6 @@ def test_nothing_is_known_of_a_hidden_task(tmp_path: Path) -> None:
     for code in (RIGHT, WRONG):
         _, shown = submitted(tmp_path, code, "nothing")
         assert shown.score is None
-        assert [name.partition(":")[0] for name, *_ in shown.tests] == ["to-bitmap"]
+        assert [name.partition(":")[0] for name, *_ in shown.tests] == ["hit-sphere"]
         told.append(shown)
     assert told[0] == told[1]

@@ -43,7 +43,7 @@ def test_the_task_file_is_read(tmp_path):
     text = next(block for block in blocks if block.startswith("    lucida = 1"))
     (tmp_path / "hw2.toml").write_text(re.sub("^    ", "", text, flags=re.MULTILINE), "utf-8")
     found = load_tasks(tmp_path / "hw2.toml")
-    assert [task.kind for task in found.tasks] == ["viewing-ray", "basis", "to-gray"]
+    assert [task.kind for task in found.tasks] == ["viewing-ray", "basis"]
 
 
 def test_courses_are_there_with_their_functions_and_fields():

@@ -168,15 +168,6 @@ WRONG_VALUES = [
     ("hit-sphere", "a = dx*dx + dy*dy + dz*dz", "a = 1", "a = dot(d, d), not 1"),
     ("hit-sphere", "- a*c", "- a*c/4", "The discriminant is b^2 - 4 a c"),
     ("hit-triangle", "t if beta >= 0", "t if t > 0 or beta >= 0", "inside the triangle"),
-    ("to-gray", "(0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2])",
-     "0.0722 * p[0] + 0.7152 * p[1] + 0.2126 * p[2]", "The first channel is red"),
-    ("to-gray", "p in row", "p in row.astype(int)", "as whole numbers (uint8) they are 0"),
-    ("to-bitmap", "g >= threshold", "g < threshold", "brighter than the threshold"),
-    ("to-bitmap", "[[1 if", "[[g if", "One bit has two values, 0 and 1"),
-    ("to-bitmap", "g >= threshold", "g > threshold", "at least the threshold"),
-    ("memory-offset", "j + width * i", "i + width * j", "i is the row"),
-    ("memory-offset", "j + width * i", "i * (width + j)", "Multiply first"),
-    ("memory-offset", "j + width * i", "(j + width * i) * 4", "Pixels are counted here, not bytes"),
 ]  # fmt: skip
 
 LAST_WINS = (

@@ -12,23 +12,29 @@ from lucida.app.checking.task_file import BUILTIN
 from lucida.app.cli import main
 
 RIGHT = """\
-def memory_offset(i, j, width):
-    return i * width + j
-"""
-WRONG = RIGHT.replace("j\n", "j + 1\n")
-RAISES = RIGHT.replace("return", "return 1 // (").replace("+ j", "+ j)")
-ALSO = """
 def hit_sphere(origin, direction, center, radius):
+    def dot(a, b):
+        return sum(x * y for x, y in zip(a, b))
+    away = [x - y for x, y in zip(origin, center)]
+    a, b, c = dot(direction, direction), dot(away, direction), dot(away, away) - radius**2
+    root = max(0, b * b - a * c) ** 0.5
+    found = [t for t in ((-b - root) / a, (-b + root) / a) if root > 0 and t > 0]
+    return min(found, default=None)
+"""
+WRONG = RIGHT.replace("min(found", "max(found")
+RAISES = RIGHT.replace("away = ", "away = 1 / 0, ")
+ALSO = """
+def hit_triangle(origin, direction, a, b, c):
     print("called")
     return 1.5
 """
 TASKS = """\
 feedback = "{feedback}"
 [[tasks]]
-kind = "memory-offset"
+kind = "hit-sphere"
 points = 2
 [[tasks]]
-kind = "hit-sphere"
+kind = "hit-triangle"
 points = 3
 """
 
@@ -51,25 +57,25 @@ def check(tmp_path, capsys, monkeypatch):
 
 def test_right_is_0_wrong_is_1_and_what_cannot_run_is_2(check):
     status, out, err = check(RIGHT)
-    assert (status, out) == (0, "correct memory-offset  1 of 1 point\n")
+    assert (status, out) == (0, "correct hit-sphere  2 of 2 points\n")
     assert err.startswith("lucida: The program has your rights") and err.count("\n") == 1
     status, out, _ = check(WRONG)
     assert status == 1
-    assert out.startswith("wrong   memory-offset  0 of 1 point\n")
-    assert "memory_offset(i=0, j=0, W=8)\n" in out
-    assert "correct: 0\n" in out and "given: 1\n" in out
+    assert out.startswith("wrong   hit-sphere  0 of 2 points\n")
+    assert "hit_sphere(p=(0, 0, 5), d=(0, 0, -1), center=(0, 0, 0), radius=1)\n" in out
+    assert "correct: 4\n" in out and "given: 6\n" in out
     status, out, _ = check(RAISES)
     assert status == 2
-    assert out.startswith("failed  memory-offset") and "ZeroDivisionError" in out
-    assert "memory_offset(i=0, j=0, W=8)" in out
+    assert out.startswith("failed  hit-sphere") and "ZeroDivisionError" in out
+    assert "hit_sphere(p=(0, 0, 5), d=(0, 0, -1), center=(0, 0, 0), radius=1)" in out
 
 
 def test_several_tasks_are_told_in_their_order_with_a_sum(check):
     status, out, _ = check(WRONG + ALSO)
     heads = [line for line in out.splitlines() if not line.startswith(" ")]
     assert status == 1
-    assert [line.split()[1] for line in heads[:2]] == ["memory-offset", "hit-sphere"]
-    assert heads[2] == "0 of 2 tasks correct, 0 of 3 points"
+    assert [line.split()[1] for line in heads[:2]] == ["hit-sphere", "hit-triangle"]
+    assert heads[2] == "0 of 2 tasks correct, 0 of 4 points"
     status, out, _ = check(RAISES + ALSO)
     assert status == 2 and out.count("wrong ") == 1
 
@@ -81,14 +87,14 @@ def test_a_file_with_none_of_the_functions(check):
 
 
 def test_a_named_task_must_be_there(check, tmp_path):
-    status, out, _ = check(RIGHT, "--task", "hit-sphere")
-    assert status == 2 and "there is no function hit_sphere" in out
-    status, _, err = check(RIGHT, "--task", "hit-spere")
-    assert status == 2 and "did you mean 'hit-sphere'" in err
-    status, out, _ = check(RIGHT + ALSO, "--task", "memory_offset")
+    status, out, _ = check(RIGHT, "--task", "hit-triangle")
+    assert status == 2 and "there is no function hit_triangle" in out
+    status, _, err = check(RIGHT, "--task", "hit-triangel")
+    assert status == 2 and "did you mean 'hit-triangle'" in err
+    status, out, _ = check(RIGHT + ALSO, "--task", "hit_sphere")
     assert status == 0 and out.count("\n") == 1
-    (tmp_path / "hw.toml").write_text('[[tasks]]\nkind = "memory-offset"\nfunction = "place"\n')
-    renamed = RIGHT.replace("memory_offset", "place")
+    (tmp_path / "hw.toml").write_text('[[tasks]]\nkind = "hit-sphere"\nfunction = "place"\n')
+    renamed = RIGHT.replace("hit_sphere", "place")
     assert check(renamed, "--tasks", "hw.toml", "--task", "place")[0] == 0
 
 
@@ -114,11 +120,11 @@ def test_a_file_that_fails_while_it_is_imported(check, tmp_path):
 
 
 def test_what_was_printed_is_shown(check):
-    text = RIGHT.replace("    return", "    print('row', i)\n    return")
+    text = RIGHT.replace("    away", "    print('radius', radius)\n    away")
     status, out, _ = check(text)
     lines = out.splitlines()
-    assert status == 0 and lines[1:3] == ["        printed:", "          row 0"]
-    assert lines[-1] == "          ... and 16 lines more"
+    assert status == 0 and lines[1:3] == ["        printed:", "          radius 1.0"]
+    assert lines[-1] == "          ... and 22 lines more"
 
 
 @pytest.mark.parametrize("feedback", ["nothing", "verdict", "first-wrong", "diagnosis"])
@@ -133,7 +139,7 @@ def test_no_more_is_told_than_the_feedback_says(check, tmp_path, feedback):
     assert [test["visibility"] for test in values["tests"]] == shown
     if feedback == "nothing":
         assert told == (False, False) and out.startswith(
-            "tried   memory-offset\ntried   hit-sphere\n2 tasks were"
+            "tried   hit-sphere\ntried   hit-triangle\n2 tasks were"
         )
         assert "given" not in text and "right" not in text
     elif feedback == "verdict":
@@ -159,22 +165,23 @@ def test_a_starter_is_never_written_over_another_file(check, tmp_path):
     assert (status, out) == (0, text)
     assert main(["check", "--starter", "all", "-o", "all.py"]) == 0
     compile((tmp_path / "all.py").read_text("utf-8"), "all.py", "exec")
-    assert (tmp_path / "all.py").read_text("utf-8").count("\ndef ") == 9
+    assert (tmp_path / "all.py").read_text("utf-8").count("\ndef ") == 6
 
 
 def test_a_program(check, tmp_path):
     program = tmp_path / "answers.py"
     program.write_text(
-        "import json, sys\n"
+        f"import json, sys\n{RIGHT}\n"
         "for line in sys.stdin:\n"
         "    asked = json.loads(line)\n"
-        "    print(asked['i'] * asked['width'] + asked['j'])\n"
+        "    asked.pop('function')\n"
+        "    print(json.dumps(hit_sphere(**asked)))\n"
     )
     command = f'"{sys.executable}" answers.py'
-    assert check(None, "--command", command, "--task", "memory-offset")[0] == 0
+    assert check(None, "--command", command, "--task", "hit-sphere")[0] == 0
     status, _, err = check(None, "--command", command)
     assert status == 2 and "--task: is missing" in err
-    status, _, err = check(RIGHT, "--command", command, "--task", "memory-offset")
+    status, _, err = check(RIGHT, "--command", command, "--task", "hit-sphere")
     assert status == 2 and "argument --command: not allowed with argument FILE" in err
     status, _, err = check(None)
     assert status == 2 and "one of the arguments FILE --command --starter is required" in err
@@ -182,9 +189,9 @@ def test_a_program(check, tmp_path):
 
 def test_a_task_file_has_limits(check, tmp_path):
     (tmp_path / "hw.toml").write_text("seconds = 0.5\n" + TASKS.format(feedback="verdict"))
-    text = "def memory_offset(i, j, width):\n    while True:\n        pass\n" + ALSO
+    text = "def hit_sphere(*_):\n    while True:\n        pass\n" + ALSO
     status, out, _ = check(text, "--tasks", "hw.toml")
-    assert status == 2 and "0.5 s" in out and "wrong   hit-sphere" in out
+    assert status == 2 and "0.5 s" in out and "wrong   hit-triangle" in out
 
 
 def test_the_list_of_tasks(capsys, tmp_path):

@@ -125,5 +125,5 @@ def test_letters_are_told_as_the_course_calls_them(tmp_path) -> None:
 def test_words_without_lines_of_their_own_are_told_by_the_contract() -> None:
     words = (("p", "xy11"), ("q", "top_left"), ("camera", "camera"))
     conventions = Conventions(arguments=words, camera=(("z", "forward"),))
-    asked = ray_task(replace(BUILTIN[3], conventions=conventions))
+    asked = ray_task(replace(BUILTIN[0], conventions=conventions))
     assert asked.words == WORDS - {"i", "j"} | {"x11", "y11"}

@@ -43,11 +43,6 @@ def closest_hit(origin, direction, objects):
     return (k, ts[k]) if ts and ts[k] < inf else (-1, inf)
 
 
-def to_gray(rgb): return np.einsum("ijk,k", rgb, [.2126, .7152, .0722])
-def to_bitmap(gray, threshold): return [[px >= threshold for px in row] for row in gray]
-def memory_offset(i, j, width): return np.ravel_multi_index((i, j), (i + 1, width))
-
-
 def viewing_ray(i, j, width, height, c):
     x = c.left + (c.right - c.left) * (j + 0.5) / width
     y = c.top - (c.top - c.bottom) * (i + 0.5) / height

@@ -30,11 +30,6 @@ def right_parallel(i, j, width, height, camera):
     return camera.eye + basis @ [x, y, 0], -basis[:, 2]
 
 
-def right_offset(i, j, width):
-    """memory-offset"""
-    return 12 * ((i - 1) * width + (j - 1))
-
-
 def wrong_from_zero(i, j, width, height, camera):
     """viewing-ray: the half pixel, do not add it"""
     x = camera.left + (j + 0.5) / width * (camera.right - camera.left)
@@ -46,8 +41,3 @@ def wrong_from_zero(i, j, width, height, camera):
 def wrong_parallel_from_the_eye(i, j, width, height, camera):
     """viewing-ray-parallel: the pixel moves the origin"""
     return camera.eye, tuple(-number for number in camera.w)
-
-
-def wrong_offset_from_zero(i, j, width):
-    """memory-offset"""
-    return 12 * (i * width + j)
