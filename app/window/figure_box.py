@@ -9,8 +9,9 @@ from typing import Any, get_args
 import moderngl
 import numpy as np
 from imgui_bundle import ImVec2, imgui
+from PIL import Image
 
-from lucida.app.instruments.outside.png import painted
+from lucida.app.instruments.outside.svg import painted
 from lucida.app.state.bounds import range_of
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
@@ -108,10 +109,9 @@ class FigureBox:
         if not same(key, self._shown):
             self._shown = key
             try:
-                pixels = painted(figure_of(host, small)).astype(float)
-                opacity = pixels[..., 3:] / 255
-                shown = opacity * pixels[..., :3] + (1 - opacity) * GRAY
-                self._uploads.put("preview", shown.astype(np.uint8))
+                shown = Image.new("RGBA", small.size, (*3 * (GRAY,), 255))
+                shown.alpha_composite(painted(figure_of(host, small)))
+                self._uploads.put("preview", np.asarray(shown.convert("RGB")))
                 self._problem = ""
             except (LucidaError, moderngl.Error) as error:
                 self._problem = describe(error)

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 from imgui_bundle import ImVec4, imgui_microtex
-from PIL import Image
 
 from lucida.app.cameras.films.frames import with_z
 from lucida.app.instruments.outside.figure import (
@@ -24,8 +23,7 @@ from lucida.app.instruments.outside.figure import (
 )
 from lucida.app.instruments.outside.figure_view import PLACE, outside_figure
 from lucida.app.instruments.outside.paint import figure_color, ground_of
-from lucida.app.instruments.outside.png import painted
-from lucida.app.instruments.outside.svg import svg
+from lucida.app.instruments.outside.svg import painted, svg
 from lucida.app.instruments.probe.copying import all_lines, as_latex
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.instruments.probe.view import ProbeView
@@ -94,7 +92,7 @@ def _encoded(make: Callable[[], Figure], title: str, latex: str, ending: str) ->
     figure = make()
     if ending == ".png":
         file = io.BytesIO()
-        Image.fromarray(painted(figure)).save(file, "PNG")
+        painted(figure).save(file, "PNG")
         return file.getvalue()
     drawing = svg(figure, title)
     if ending != ".pdf":

@@ -60,7 +60,7 @@ from .looking import (
 )
 from .mouse import Area, Mouse, Scope
 from .paint import ground_of, layers
-from .pixel_plane import PixelPlane
+from .pixel_plane import pixel_items
 from .placing import Edges, LabelPlacer
 from .projected import Primitive, project
 from .screen import OutsideScreen, image_plane
@@ -107,7 +107,7 @@ class OutsideView(Instrument):
         self.hosted = Hosted(self.name)
         self._over = False  # whether the mouse is over the picture
         self._made: Drawing | None = None
-        self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), PixelPlane()
+        self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), Memo(pixel_items)
         self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
         self._meetings, self._drawn, self._written = Memo(_meetings), Memo(_drawn), Memo(written)
@@ -198,7 +198,7 @@ class OutsideView(Instrument):
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
         area = Area.of(size, imgui.get_cursor_screen_pos())
-        self.show("pixels", self._pixels.shown(host))
+        self.show("pixels", self._pixel_items(host))
         self._follow_mouse(host, self._scope(host, area))
         scope, draw = self._scope(host, area), imgui.get_window_draw_list()
         try:
@@ -231,6 +231,12 @@ class OutsideView(Instrument):
         self.scope = self._scopes.of(host, area, self.extensions.points, now_s, held)
         return self.scope
 
+    def _pixel_items(self, host: Host) -> tuple[Item, ...]:
+        both, options = host.renderers, host.state.options
+        if not options.outside.pixels or not min(both.size):
+            return ()
+        return self._pixels(both.camera(host.state), both.size, options.pixel_origin)
+
     def _follow_mouse(self, host: Host, scope: Scope) -> None:
         imgui.set_cursor_screen_pos(scope.origin)
         self._over = False
@@ -249,9 +255,6 @@ class OutsideView(Instrument):
         if right or down:
             camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
             host.apply(self.with_own_camera(host.state, camera), (self.name, "turned"))
-            return
-        if self._pixels.follow(host, scope):
-            self._mouse.cancel()
             return
         was_dragging = self._mouse.dragging
         camera, gesture = self._mouse.follow(scope)

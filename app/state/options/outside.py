@@ -28,7 +28,7 @@ class OutsideOptions(OptionPart):
     target: a point to draw as **a**, with up as an arrow at the eye, from which a lecture makes a
         basis; None to draw neither.
     formula: how far the marked pixel's formula has grown, in STAGES; None to hide it.
-    pixels: show the image plane in pixels, with K's numbers to drag.
+    pixels: show the image plane in pixels, with K's numbers.
 
     The numbers below are drawings of a lecture that grow: each counts the parts that are complete.
     points: points of the scene whose viewing rays are drawn; points_grown: their rays, then dots

@@ -24,10 +24,9 @@ from lucida.app.instruments.outside.figure import (
     with_picture,
 )
 from lucida.app.instruments.outside.frustum import pixel_corners, plane_corners
-from lucida.app.instruments.outside.png import painted
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
-from lucida.app.instruments.outside.svg import svg
+from lucida.app.instruments.outside.svg import painted, svg
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene import shapes
@@ -209,7 +208,7 @@ def test_pixels_show_the_same_parts_over_the_ground(ground: Any) -> None:
         Segments("line", "ray", np.array([[[-1.0, 0, 0], [1, 0, 0]]]), 4.0),
         Label("name", "text", "ray", np.array([0.0, 0.6, 0])),
     ]
-    pixels = painted(drawn(items, STRAIGHT, ground=ground))
+    pixels = np.asarray(painted(drawn(items, STRAIGHT, ground=ground)))
     assert pixels.shape == (*SIZE[::-1], 4)
     corners = pixels[[0, 0, -1, -1], [0, -1, 0, -1]]
     assert (corners == 255).all() if ground else (corners[:, 3] == 0).all()
