@@ -109,6 +109,9 @@ REPLACED: dict[tuple[str, Any], Replaced] = {
     ("laboratory.page", "vector"): Replaced("shapes", "a drawing is shown as pixels and as shapes"),
     ("objects.handle", "turn"): Replaced("move", TURNED),
     ("objects.handle", "scale"): Replaced("move", TURNED),
+    ("outside.gizmo", "distance"): Replaced(
+        "none", "the camera panel's field moves the image plane"
+    ),
     ("costs.against", "frames"): Replaced("triangles", "no time is measured", was_default=True),
 }
 
