@@ -12,7 +12,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import LARGEST, Floats, three
 from lucida.renderer.system.errors import LucidaError
 
-from .frustum import border, has_plane, image_point, plane_corners
+from .frustum import plane_corners
 
 FOV_Y_DEG = 50.0
 LARGE_REACH = 30.0  # in whose picture an arrow of length 1 is short
@@ -41,10 +41,7 @@ def around(points: Floats, arrow: float, *cameras: Camera) -> Floats:
     for camera in cameras:
         eye = np.asarray(camera.eye)
         tips = [eye + 1.2 * arrow * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
-        image = plane_corners(camera)
-        if not has_plane(camera):
-            image = image_point(camera, *border(camera).T)
-        parts.append(np.array([eye, *tips, *image]))
+        parts.append(np.array([eye, *tips, *plane_corners(camera)]))
     everything = np.concatenate(parts)
     return everything[np.isfinite(everything).all(axis=1)]
 

@@ -176,11 +176,11 @@ def manipulate(
     moved = gizmo.manipulate(
         matrix16(view), matrix16(projection), handle.operation, handle.mode, matrix,
     )  # fmt: skip
-    using, over = gizmo.is_using(), gizmo.is_over()
+    using, over = is_dragging(), gizmo.is_using() or gizmo.is_over()
     gizmo.pop_id()  # is_using() asks for the pushed one
     repaint(draw, first, handle.colors)
     after = np.asarray(matrix.values, float).reshape(4, 4).T if moved else None
-    return Manipulated(using, using or over, after)
+    return Manipulated(using, over, after)
 
 
 def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Floats] | None:
@@ -215,6 +215,7 @@ def nearest_rotation(matrix: Floats) -> Floats:
 
 
 _begun = -1  # the frame of the latest handles
+_let_go = False
 
 
 def begin_handles() -> None:
@@ -226,9 +227,16 @@ def begin_handles() -> None:
 
 
 def let_go() -> None:
-    """End the drag of a handle although the mouse is still down."""
-    gizmo.enable(False)
-    gizmo.enable(True)
+    """End the drag of a handle although the mouse is still down. ImGuizmo itself goes on."""
+    global _let_go
+    _let_go = True
+
+
+def is_dragging() -> bool:
+    """Return True while a handle that was just drawn is dragged."""
+    global _let_go
+    _let_go = _let_go and imgui.is_mouse_down(0)
+    return gizmo.is_using() and not _let_go
 
 
 def escaped() -> bool:

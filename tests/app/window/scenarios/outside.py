@@ -203,7 +203,7 @@ def _watched():
         repaint(draw, first, exchanged)
         after = outside_tint.vertex_colors(draw)[first:]
         hidden.append(int((after == 0).sum()))
-        if im_guizmo.is_using():
+        if outside_gizmo.is_dragging():
             colors.update((after & 0xFFFFFF).tolist())
 
     outside_gizmo.repaint = watched
