@@ -46,12 +46,6 @@ def around(points: Floats, arrow: float, *cameras: Camera) -> Floats:
     return everything[np.isfinite(everything).all(axis=1)]
 
 
-def way_of(axis: str) -> Floats:
-    """Return the unit vector of an axis of the world: "x", "-x", ... "-z"."""
-    way = np.eye(3)["xyz".index(axis[-1])]
-    return -way if axis.startswith("-") else way
-
-
 def end_parameter(camera: Camera, points: Floats) -> float:
     """Return the ray parameter at which the scene ends for a camera; some way beyond its image
     plane if nothing is in front of it.

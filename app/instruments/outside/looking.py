@@ -28,9 +28,7 @@ from .diagram import RayEnd
 from .extent import (
     around,
     arrow_length,
-    framed,
     outside_camera,
-    way_of,
 )
 from .frustum import bundle_pixels
 from .mouse import Area, Scope
@@ -42,14 +40,6 @@ MOST_MARGIN = 1.6  # the most of a view's side, in sides of what is framed
 STILL_S = 0.25  # without a change of the other camera, before the view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
-AXIS_NAMES = {
-    "x": "from the right (+x)",
-    "-x": "from the left (-x)",
-    "y": "from above (+y)",
-    "-y": "from below (-y)",
-    "z": "from the front (+z)",
-    "-z": "from behind (-z)",
-}
 LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
 
 
@@ -139,12 +129,6 @@ def camera_for_all(host: Host, area: Area, more: Floats = NOTHING) -> Camera:
     across, down = (side / max(side - room, side / MOST_MARGIN, 1.0) for side in area.extent)
     home = host.state.scene.view.camera
     return outside_camera(_points(host, more), home, area.size[0] / area.size[1], (across, down))
-
-
-def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
-    """Return the outside camera that looks along an axis of the world and sees everything."""
-    aspect = scope.extent.x / max(scope.extent.y, 1.0)
-    return framed(_points(host, more), way_of(axis), aspect)
 
 
 def nearest(camera: Camera, scope: Scope) -> float:

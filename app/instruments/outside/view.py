@@ -51,7 +51,6 @@ from .growing import grown_diagram
 from .hosted import Hosted
 from .looking import (
     Scopes,
-    camera_along,
     camera_for_all,
     nearest,
     ray_ends,
@@ -180,11 +179,6 @@ class OutsideView(Instrument):
         """Look through a camera; None: through one that sees everything."""
         host.travel(self.with_own_camera(host.state, camera))
 
-    def look_along(self, host: Host, axis: str) -> None:
-        """Look along an axis of the world, "x", "-x", ... "-z", at everything."""
-        assert self.scope is not None
-        self.look(host, camera_along(host, self.scope, axis, self.extensions.points))
-
     def object_under(self, host: Host) -> int | None:
         if self.scope is None:
             return None
@@ -215,14 +209,9 @@ class OutsideView(Instrument):
         self._gizmo.follow(host, scope, ground)
         tools: tuple[Edges, ...] = ()
         if host.has_tools:
-            axis, tools = use_tools(host, scope, self.actions)
-            if axis is not None:
-                self.look_along(host, axis)
+            tools = use_tools(host, scope, self.actions)
         labels = self._written(self._made.primitives, self._placer, size, host.fonts, tools)
         draw_labels(labels, area.origin)
-        taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
-        if self._over:  # not between the two clicks, when the button is held
-            self.hosted.double_is_taken = any(taken)
         self.hosted.draw(host, scope, self._over)
         draw.pop_clip_rect()
 
@@ -251,7 +240,7 @@ class OutsideView(Instrument):
             buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
         )
         self._over = imgui.is_item_hovered() and not self._mouse.dragging
-        right, down = (0, 0) if self.extensions.guests else focused_steps()
+        right, down = focused_steps()
         if right or down:
             camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
             host.apply(self.with_own_camera(host.state, camera), (self.name, "turned"))
