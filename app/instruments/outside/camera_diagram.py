@@ -61,7 +61,6 @@ class Content:
     base: the number of the first row and column.
     number_step: see pixel_numbers(); None if rows and columns are not numbered.
     meetings: the t of all points where the marked pixel's line meets objects.
-    pointed: the t under the mouse.
     names_t: True to write the t of the marked pixel's hit.
     arrow: the length of the basis's arrows, in lengths of its vectors.
     """
@@ -76,7 +75,6 @@ class Content:
     base: int = 1
     number_step: int | None = None
     meetings: tuple[float, ...] = ()
-    pointed: float | None = None
     names_t: bool = True
     arrow: float = 1.0
 
@@ -95,7 +93,7 @@ def diagram(content: Content) -> list[Item]:
     if marked is not None and options.ray:
         pixel = marked.pixel
         if options.half_line:
-            return items + half_line(camera, size, pixel, options.half_line, content.pointed)
+            return items + half_line(camera, size, pixel, options.half_line)
         if options.meetings:
             items += meetings(camera, size, pixel, content.meetings, end, options.meetings)
         else:

@@ -105,13 +105,6 @@ class OutsideScreen:
             visible = (spots @ self._planes.T >= 0).all(axis=-1)  # of NaN, nothing is
             return Seen(spots, *self.on_screen(spots), visible)
 
-    def spots(self, points: Floats) -> tuple[Floats, Floats] | None:
-        """Return pixels (..., 2) and depths (...) of points (..., 3), or None unless all of them
-        are visible.
-        """
-        found = self.seen(points)
-        return (found.points, found.depth) if found.visible.all() else None
-
     def px_world(self, t: float) -> float:
         """Return a pixel's width in world units at a distance t in front of the camera."""
         camera = self.camera

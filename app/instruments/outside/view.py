@@ -294,8 +294,6 @@ class OutsideView(Instrument):
             host.animate()
         near, units = nearest(camera, scope), units_px(scope.extent)
         content = self.content(host, OutsideScreen(camera, size, near, *units))
-        if state.options.outside.half_line and self._over:
-            content = replace(content, pointed=_pointed(content, scope))
         return self._drawn(
             tools, ground, content, near, units, extensions.items, extensions.cloud, picture,
             state.images.exposure_ev, (live, state.images, theme.used()),
@@ -364,14 +362,3 @@ def _drawn(
 
 def _meetings(scene: Scene, *ray: float) -> tuple[float, ...]:
     return line_meetings(scene, np.array(ray[:3]), np.array(ray[3:]))
-
-
-def _pointed(content: Content, scope: Scope) -> float | None:
-    """Return the t of the marked pixel's line that is nearest to the mouse."""
-    if content.marked is None:
-        return None
-    ray = content.camera.ray(*content.marked.pixel, content.size)
-    origin, way = scope.ray(imgui.get_mouse_pos())
-    sides = np.column_stack([ray.direction, -way])
-    found, *_ = np.linalg.lstsq(sides, origin - ray.origin, rcond=None)
-    return float(found[0])
