@@ -6,10 +6,13 @@ import io
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import Any
 
+import imgui_bundle
 import numpy as np
 from imgui_bundle import ImVec4, imgui_microtex
+from PIL import Image
 
 from lucida.app.instruments.outside.figure import (
     LETTER_WIDTH,
@@ -22,7 +25,7 @@ from lucida.app.instruments.outside.figure import (
 )
 from lucida.app.instruments.outside.figure_view import outside_figure
 from lucida.app.instruments.outside.paint import figure_color, ground_of
-from lucida.app.instruments.outside.svg import painted, svg
+from lucida.app.instruments.outside.svg import svg
 from lucida.app.instruments.probe.copying import all_lines, as_latex
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.instruments.probe.view import ProbeView
@@ -39,6 +42,8 @@ from .figure_choice import ENDINGS, FigureChoice, What
 
 GAP = 0.02  # between the pair, in parts of the width
 FORMULA_PX = 24.0  # of the probe's formulas
+FACES = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto"
+SAMPLES = 2  # a side of a PNG's pixel: resvg does not average the pixels of a larger image
 FINE = 4  # their pixels a side of each of the page's
 FORMULA_GAP, ROW_GAP = 0.3, 0.4  # from one to the next, in parts of their size
 
@@ -91,6 +96,18 @@ def _encoded(figure: Figure, title: str, latex: str, ending: str) -> bytes:
     style = f"@page{{size:{width}px {height}px;margin:0}}body{{margin:0}}svg{{display:block}}"
     drawing = drawing.partition("?>")[2]  # in a page, it is no file of its own
     return pdf.pdf(f"<!DOCTYPE html><style>{style}</style>{drawing}", pdf.browser())
+
+
+def painted(figure: Figure) -> Image.Image:
+    """Return a figure as pixels of its page, sRGB and opacity: its SVG file, drawn by resvg."""
+    import resvg_py  # for PNG files alone
+
+    faces = [str(FACES / f"Roboto-{face}.ttf") for face in ("Regular", "Bold")]
+    drawn = resvg_py.svg_to_bytes(
+        svg(figure), skip_system_fonts=True, font_files=faces, zoom=SAMPLES
+    )
+    with Image.open(io.BytesIO(drawn)) as file:
+        return file.convert("RGBA").resize(figure.size, Image.Resampling.BOX)
 
 
 def _names(choice: FigureChoice) -> tuple[What, ...]:

@@ -46,11 +46,11 @@ def half_line(camera: Camera, size: Size, pixel: Pixel, grown: float) -> list[It
         return []
     up = camera.basis[:, 1]
 
-    def named_point(text: str, radius: float, at: Floats) -> list[Item]:
-        dot = Dot(text, "ray", at, radius, layer=5)
-        return [dot, Label(text, "ray", text, at, away=at + up, strong=True)]
+    def named_point(name: str, text: str, radius: float, at: Floats) -> list[Item]:
+        dot = Dot(name, "ray", at, radius, layer=5)
+        return [dot, Label(name, "ray", text, at, away=at + up, strong=True)]
 
-    items = named_point("vec(p)", 6.0 * begun, origin)
+    items = named_point("p", "vec(p)", 6.0 * begun, origin)
     if ahead:
         items += term("d", "ray", "vec(d)", origin, origin + ahead * (ticks[0] - origin), -up)
     if whole:
@@ -61,7 +61,7 @@ def half_line(camera: Camera, size: Size, pixel: Pixel, grown: float) -> list[It
                                   dashed=pale < 1, layer=3))  # fmt: skip
     if whole == 1:
         for t_here, at in zip(TICKS, ticks, strict=True):
-            items += named_point(f"t = {t_here:g}", 5.0, at)
+            items += named_point(f"t = {t_here:g}", f"t = {t_here:g}", 5.0, at)
         formula = "vec(r)(t) = vec(p) + t vec(d)"
         items.append(Label("line", "ray", formula, named, away=named - up, strong=True))
     if faded == 1:
