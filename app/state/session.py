@@ -25,6 +25,7 @@ from .removed import without_removed
 
 VERSION = 1  # of the format: the key `lucida_session`
 LARGEST_BYTES = 20 << 20  # an edited scene is in it
+OLDER = "The last session is of an earlier version:"
 
 
 # Removed layouts, and the nearest remaining ones.
@@ -45,14 +46,12 @@ class Arrangement:
     """The arrangement of the windows inside the window.
 
     layout: its name. visible: the names of the shown views. sections: the unfolded parts of a
-    view, by the view's name. maximised: the name of the view that covers all others, focused: of
-    the one that has the keyboard, or "".
+    view, by the view's name. focused: the name of the view that has the keyboard, or "".
     """
 
     layout: str = ""
     visible: tuple[str, ...] = ()
     sections: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    maximised: str = ""
     focused: str = ""
 
 
@@ -61,8 +60,8 @@ class Session:
     """A session file.
 
     scene: an argument of load_scene, as paths.stored() writes it. lecture: the open one, or None.
-    unsaved: a scene file with the scene, if that is not what load_scene returns; or "". notes: a
-    line for each removed option in use; not written to the file. The other fields are those of
+    unsaved: a scene file with the scene, if that is not what load_scene returns; or "". notes: for
+    the user; not written to the file. The other fields are those of
     AppState.
     """
 
@@ -143,7 +142,9 @@ def _session(data: bytes) -> Session:
     options = table.get("options")
     notes: list[str] = []
     if isinstance(options, dict):
-        table["options"], notes = without_removed(options, is_session=True)
+        table["options"], removed = without_removed(options)
+        if removed:
+            notes = [f"{OLDER} {len(removed)} of its settings have left (CHANGELOG.md)."]
     table.pop("notes", None)
     if edited := table.pop("edited", None):  # of an earlier version
         table["unsaved"] = text_of_older(edited)

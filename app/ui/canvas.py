@@ -40,23 +40,6 @@ def color_picture(color: NDArray[np.float64], exposure_ev: float) -> NDArray[np.
     """
     unset = np.asarray(np.isnan(color).any(axis=2))
     shown = to_srgb8(np.where(unset[..., None], 0.0, color), exposure_ev)
-    return _pointed(shown, unset)
-
-
-def depth_picture(depth: NDArray[np.float64], farthest: float) -> NDArray[np.uint8]:
-    """Return ray parameters as gray, the nearest the brightest. Infinity is a point."""
-    unset = ~np.isfinite(depth)
-    part = np.where(unset, 0.0, depth) / (farthest if farthest > 0 else 1.0)
-    gray = (255 * (1 - 0.8 * np.clip(part, 0, 1))).astype(np.uint8)
-    return _pointed(np.repeat(gray[..., None], 3, axis=2), unset)
-
-
-def cell_of(width: int) -> int:
-    """Return the texels along a pixel's side in the picture of a canvas of this width."""
-    return max(LEAST_CELL, min(CELL, LARGEST_PX // width))
-
-
-def _pointed(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.uint8]:
     cell = cell_of(shown.shape[1])
     dark, light = (
         np.round(255 * np.array([*color])[:3]).astype(np.uint8)
@@ -66,6 +49,11 @@ def _pointed(shown: NDArray[np.uint8], unset: NDArray[np.bool_]) -> NDArray[np.u
     near = np.abs(np.arange(cell) - (cell - 1) / 2) < POINT
     large[np.kron(unset, near[:, None] & near).astype(bool)] = light
     return large
+
+
+def cell_of(width: int) -> int:
+    """Return the texels along a pixel's side in the picture of a canvas of this width."""
+    return max(LEAST_CELL, min(CELL, LARGEST_PX // width))
 
 
 def canvas_unit(size: tuple[int, int], room: ImVec2) -> float:

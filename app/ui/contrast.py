@@ -10,7 +10,6 @@ from lucida.renderer.images.display import LUMINANCE, from_srgb
 
 Rgb = tuple[float, float, float]  # sRGB, 0..1
 LEGIBLE = 4.5  # the least contrast of text with what is behind it (1.4.3)
-ENHANCED = 7.0  # of text in the high-contrast theme (1.4.6)
 SEEN = 3.0  # and of what is drawn (1.4.11)
 
 

@@ -33,11 +33,6 @@ class FailedViews:
             self.errors[view.name] = error
             self._to_begin[view.name] = lambda: self.begin(view, host, context)
 
-    def retry(self) -> None:
-        """Retry what has failed."""
-        for name in list(self.errors):
-            self._retry(name)
-
     def _retry(self, name: str) -> None:
         del self.errors[name]
         if begin := self._to_begin.pop(name, None):

@@ -1,4 +1,4 @@
-"""The palettes: dark and light, each also for presentation, and one of high contrast.
+"""The palettes: dark and light, each also for presentation.
 
 The colour language is the same in all of them: u, v, w after Okabe and Ito, rays in orange, hits
 and the marked pixel in yellow.
@@ -115,22 +115,4 @@ PRESENTED_LIGHT = replace(LIGHT, LINE_WIDTH=2.0).changed(
     BACKGROUND="#e8ebee",
     PANEL="#ffffff",
     LINE="#8b949e",
-)
-# Text has 7:1 with what is behind it (WCAG 2.1, 1.4.6), and every control has an edge.
-CONTRAST = PRESENTED_DARK.changed(
-    *("#ff9a4d", "#4fe0b5", "#7cc8ff"),
-    MARK="#ffff00",
-    PLAIN="#ffffff",
-    DIM="#e2e6ea",
-    ERROR="#ffa3b8",
-    GOOD="#6ff0c4",
-    PANEL="#000000",
-    POPUP="#000000",
-    FRAME="#101316",
-    FRAME_HOVERED="#2b3036",
-    FRAME_ACTIVE="#3d444d",
-    LINE="#ffffff",
-    ACCENT="#9fd4ff",
-    FILL="#00457f",
-    LIT="#2b2300",
 )

@@ -1,7 +1,6 @@
-"""The visibility of views: shown, hidden, in front, or one of them over all the others.
+"""The visibility of views: shown, hidden, or in front.
 
-Includes the views' ImGui windows and their transient state: the focus, the maximised one, the place
-of each.
+Includes the views' ImGui windows and their transient state: the focus, and the place of each.
 """
 
 from __future__ import annotations
@@ -22,14 +21,12 @@ LAID_OUT = 3  # frames that it takes until every window has its place
 class Stage:
     """All views of a window.
 
-    maximised: the name of the view that covers the others, or "".
     focused: the name of the view that has the keyboard, or "".
     rects: the content rectangles of the views drawn in this frame or the last one.
     """
 
     def __init__(self, views: list[Instrument]) -> None:
         self.views = {view.name: view for view in views}
-        self.maximised = ""
         self.focused = ""
         self.rects: dict[str, Rect] = {}
         self.failed = FailedViews()
@@ -79,8 +76,6 @@ class Stage:
         layout.window_of(self.views[name]).is_visible = shown
         if shown:
             self._next_focus = name
-        elif self.maximised == name:
-            self.maximised = ""
 
     def show_in(self, name: str, wanted: str) -> None:
         """Show a view in a layout that has room for it; in a lecture, next to the step's own."""
@@ -104,13 +99,6 @@ class Stage:
             here = names.index(self.focused) if self.focused in names else -max(step, 0)
             self._next_focus, self._by_key = names[(here + step) % len(names)], True
 
-    def maximise(self, name: str = "") -> None:
-        """Let a view cover all others, or end that. name: "" for the focused one."""
-        name = name or self.focused or self.maximised
-        was = self.maximised
-        self.maximised = "" if was or not name else name
-        self._next_focus = self.maximised or was
-
     def follow(self) -> None:
         """Follow what was asked for, and move the focus. Call once a frame, before the views."""
         self._frames += 1
@@ -119,16 +107,9 @@ class Stage:
         self._give_keyboard()
         self._begin_tab()
         if self._next_focus:
-            name, self._next_focus = self._next_focus, ""
-            if self.maximised and self.maximised != name:
-                self.maximised = name
-            view = self.views[name]
-            label = _large_label(view) if self.maximised else view.label
+            label, self._next_focus = self.views[self._next_focus].label, ""
             imgui.set_window_focus(label)
             if self._by_key:
-                if self.maximised and name not in self.rects:  # drawn later in this frame
-                    self._next_focus = name
-                    return
                 imgui.internal.nav_init_window(imgui.internal.find_window_by_name(label), False)
                 imgui.set_nav_cursor_visible(True)
             self._by_key = False
@@ -178,7 +159,7 @@ class Stage:
         views = self.views.values()
         sections = {view.name: view.sections for view in views if view.sections}
         name = layout.current().name
-        return Arrangement(name, visible, sections, self.maximised, self._keyboard)
+        return Arrangement(name, visible, sections, self._keyboard)
 
     def restore(self, arrangement: Arrangement) -> None:
         """Restore an arrangement, in the next frames."""
@@ -207,8 +188,6 @@ class Stage:
             visible = self.views.keys() & set(self._restoring.visible)
             for view in self.views.values():
                 layout.window_of(view).is_visible = view.name in visible
-            if self._restoring.maximised in visible:
-                self.maximised = self._restoring.maximised
             focused = self._restoring.focused
             self.give_keyboard(focused if focused in visible else "")
         self._restoring = None
@@ -226,7 +205,6 @@ class Stage:
     def draw(self, view: Instrument, host: Host) -> None:
         """Draw a view's ImGui window, if it is visible."""
         window = layout.window_of(view)
-        large = self.maximised == view.name
         padding = view.padding
         if padding is not None:
             imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
@@ -236,50 +214,14 @@ class Stage:
         if padding is not None:
             imgui.pop_style_var()
         try:
-            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-                self.maximise(view.name)  # the last item is the tab
-            self._note_focus(view)
-            if opened and not self.maximised:
+            if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
+                self.focused = self._next_keyboard = view.name
+            if opened:
                 self._draw_content(view, host)
-            elif not large:
+            else:
                 self._leave_out(view, host)
         finally:
             imgui.end()
-        if large:
-            self._draw_large(view, host)
-
-    def _draw_large(self, view: Instrument, host: Host) -> None:
-        """Draw the view over all the others, with another id so that its dock stays unchanged."""
-        place = layout.whole()
-        if place is None:
-            return
-        imgui.set_next_window_pos(place[0])
-        imgui.set_next_window_size(place[1])
-        if view.padding is not None:
-            imgui.push_style_var(imgui.StyleVar_.window_padding, view.padding)
-        imgui.push_style_var(imgui.StyleVar_.window_rounding, 0.0)
-        flags = imgui.WindowFlags_
-        _, still_open = imgui.begin(
-            _large_label(view),
-            True,
-            view.flags
-            | flags.no_docking
-            | flags.no_collapse
-            | flags.no_resize
-            | flags.no_move
-            | flags.no_saved_settings,
-        )
-        imgui.pop_style_var(1 if view.padding is None else 2)
-        try:
-            if imgui.is_item_hovered() and imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-                still_open = False
-            if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
-                self.focused = self._next_keyboard = view.name
-            self._draw_content(view, host)
-        finally:
-            imgui.end()
-        if not still_open:
-            self.maximise()
 
     def _draw_content(self, view: Instrument, host: Host) -> None:
         corner, room = imgui.get_cursor_screen_pos(), imgui.get_content_region_avail()
@@ -298,13 +240,3 @@ class Stage:
         self.rects.pop(view.name, None)
         host.renderers.forget_pane(view.name)
         view.unseen(host)
-
-    def _note_focus(self, view: Instrument) -> None:
-        if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
-            self.focused = self._next_keyboard = view.name
-            if self.maximised and self.maximised != view.name:
-                self.maximised = self._next_focus = view.name  # by Ctrl+Tab, for instance
-
-
-def _large_label(view: Instrument) -> str:
-    return f"{view.title}###{view.name} maximised"

@@ -16,15 +16,8 @@ from imgui_bundle import ImVec2, ImVec4, hello_imgui, imgui
 
 from lucida.app.state.options.shared import Preferences
 
-from .contrast import ENHANCED, LEGIBLE, SEEN, Rgb, legible_on
-from .palettes import (
-    CONTRAST,
-    DARK,
-    LIGHT,
-    PRESENTED_DARK,
-    PRESENTED_LIGHT,
-    Palette,
-)
+from .contrast import LEGIBLE, SEEN, Rgb, legible_on
+from .palettes import DARK, LIGHT, PRESENTED_DARK, PRESENTED_LIGHT, Palette
 from .palettes import rgb as rgb  # every module that draws has it as theme.rgb
 
 TEXT_PX = 16.0
@@ -45,8 +38,6 @@ class WindowLook:
 
     @functools.cached_property
     def palette(self) -> Palette:
-        if self.theme == "contrast":
-            return CONTRAST
         if self.theme == "light":
             return PRESENTED_LIGHT if self.presentation else LIGHT
         return PRESENTED_DARK if self.presentation else DARK
@@ -207,7 +198,6 @@ def _set_style() -> None:
     style, col = imgui.get_style(), imgui.Col_
     for name, size in SIZES.items():
         setattr(style, name, ImVec2(*size) if isinstance(size, tuple) else size)
-    style.frame_border_size = float(look.theme == "contrast")
     style.window_menu_button_position = imgui.Dir.none
     accent = colors.ACCENT * (1, 1, 1, 0.5)
     for color, slots in (
@@ -276,8 +266,7 @@ def legible(color: ImVec4) -> ImVec4:
 
     The ground of lit text is the one that is hardest to read on.
     """
-    least = ENHANCED if _used[0].theme == "contrast" else LEGIBLE
-    return seen_on(color, _rgb(_used[0].palette.LIT), least)
+    return seen_on(color, _rgb(_used[0].palette.LIT), LEGIBLE)
 
 
 def seen(color: ImVec4) -> ImVec4:

@@ -1,4 +1,4 @@
-"""The actions of the parts around the views: files, themes, layouts, bookmarks, pictures, help.
+"""The actions of the parts around the views: files, themes, layouts, bookmarks, help.
 
 shell.py, files.py and bookmarks.py carry them out.
 """
@@ -58,7 +58,6 @@ def _bookmark(number: int, stores: bool) -> Action:
         lambda window: does(window, number),
         f"Ctrl+{number}" if stores else str(number),
         can=lambda window: stores or window.state.step is None,  # digits are a lecture's steps
-        separated=stores and number == 1,
     )
 
 
@@ -78,7 +77,6 @@ FILE = (
         lambda w: w.save_scene_as(),
         "Ctrl+Shift+S",
     ),
-    Action("File", "Save scene with this view", lambda w: w.save_scene_with_view()),
     Action(
         "File",
         "Save view...",
@@ -94,7 +92,6 @@ FILE = (
     ),
     Action("File", "Export...", ask_export, "Ctrl+E"),
     Action("File", "Export figure...", ask_figure, "Ctrl+Shift+E"),
-    Action("File", "Save a picture of the window", lambda w: w.shell.picture(), "F12"),
 )
 
 QUIT = (Action("File", "Quit", lambda w: w.quit(), "Ctrl+Q", separated=True),)
@@ -106,30 +103,15 @@ UNDO = (
     ),
 )
 
-FORGET = Action(
-    "Camera/Bookmarks",
-    "Forget all bookmarks",
-    changing(lambda state: state.with_options(replace(state.options, bookmarks=()))),
-    can=lambda w: bool(w.state.options.bookmarks),
-    separated=True,
-)
-BOOKMARKS = (
-    *(_bookmark(number, stores) for stores in (False, True) for number in bookmarks.NUMBERS),
-    FORGET,
+BOOKMARKS = tuple(
+    _bookmark(number, stores) for stores in (False, True) for number in bookmarks.NUMBERS
 )
 
 LOOK = (
-    Action(
-        "View",
-        "Maximise the view",
-        lambda w: w.shell.maximise(),
-        "Ctrl+M",
-    ),
     Action("View", "Full screen", lambda w: toggle_full_screen(), "F11"),
     choosing("View", "Presentation", "preferences.presentation", True, "F9", off=False),
     _theme("dark", "Dark theme"),
     _theme("light", "Light theme"),
-    _theme("contrast", "High-contrast theme"),
     Action(
         "View/Theme",
         "Larger type",
@@ -180,13 +162,6 @@ HELP = (
         lambda w: w.shell.toggle_help(),
         "F1",
         "Shift+/",
-    ),
-    Action(
-        "Help",
-        "Retry",
-        lambda w: w.retry(),
-        "F4",
-        can=lambda w: w.renderers.failure is not None or w.shell.has_failed,
     ),
     Action("Help", ABOUT, lambda w: w.shell.open_document(ABOUT), separated=True),
 )

@@ -178,9 +178,8 @@ class MainWindow(Edits):
         self.view(YourCode).open(self, path)
 
     def retry(self) -> None:
-        """Retry what a renderer or a view has failed at."""
+        """Retry what a renderer has failed at."""
         self.renderers.retry()
-        self.shell.stage.failed.retry()
         self.animate()
 
     def quit(self) -> None:
@@ -209,9 +208,6 @@ class MainWindow(Edits):
 
     def save_scene_as(self) -> None:
         self.saving.save_as(self.state)
-
-    def save_scene_with_view(self) -> None:
-        self.saving.save_with_view(self.state)
 
     # HelloImGui's callbacks.
 

@@ -21,7 +21,6 @@ from lucida.renderer.system.errors import one_line
 
 from . import bookmarks
 from .action_table import ACTIONS, MENUS
-from .actions import FORGET
 
 HISTORY_STEPS = 15
 LEAST_STATUS_EM = 6.0
@@ -180,21 +179,10 @@ def _history(window: Host, history: History) -> None:
 
 
 def _bookmarks(window: Host) -> None:
-    marks = window.state.options.bookmarks
-    if not marks:
-        imgui.text_colored(theme.DIM, "Ctrl+1 to Ctrl+9 keep the view; 1 to 9 come back to it")
-    for mark in marks:
+    imgui.text_colored(theme.DIM, "Ctrl+1 to Ctrl+9 keep the view; 1 to 9 come back to it")
+    for mark in window.state.options.bookmarks:
         if imgui.menu_item(f"{mark.name}###go{mark.number}", str(mark.number), False)[0]:
             bookmarks.recall(window, mark.number)
-    imgui.separator()
-    if imgui.begin_menu("Keep this view"):
-        for number in bookmarks.NUMBERS:
-            old = bookmarks.of(window.state, number)
-            text = f"{number}  in place of {old.name}" if old else f"{number}"
-            if imgui.menu_item(f"{text}###keep{number}", f"Ctrl+{number}", False)[0]:
-                bookmarks.store(window, number)
-        imgui.end_menu()
-    draw_entry(FORGET, window, first=True)
 
 
 def _views(stage: Stage) -> None:

@@ -65,14 +65,6 @@ class SceneSaving:
         else:
             self._files.say(one_line(f"No unsaved changes in {path.name}."))
 
-    def save_with_view(self, state: AppState) -> None:
-        """Save the scene, with the present camera as its own."""
-        path = file_of(state.scene)
-        if path is None:
-            self.save_as(state)
-        else:
-            self._write(_SceneWritten(state.scene, path, state.view))
-
     def save_as(self, state: AppState, then: Then | None = None) -> None:
         """Ask for a place, and save the scene there with the present camera."""
         name = str(suggested_file(state.scene))

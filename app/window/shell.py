@@ -1,4 +1,4 @@
-"""The parts around the views: sheet, dialogs, toasts, pictures, the session.
+"""The parts around the views: sheet, dialogs, toasts, the session.
 
 It decides what Escape means.
 """
@@ -20,12 +20,10 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.messages import loading_box, message_box
 from lucida.app.ui.stage import Rect, Stage
-from lucida.app.ui.surface import Target
 from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
 from lucida.renderer.system.errors import describe
 
-from .capture import Captures
 from .documents import Documents
 from .files import Files
 from .hints import Hints
@@ -53,7 +51,6 @@ class Shell:
         self.stage: Stage = Stage(views)
         self.proportion = Proportion()
         self.toasts = Toasts()
-        self.captures = Captures(files)
         self.documents = Documents()
         self.hints = Hints(folder)
         self.files = files
@@ -69,13 +66,6 @@ class Shell:
 
     # What actions ask for.
 
-    @property
-    def has_failed(self) -> bool:
-        return bool(self.stage.failed.errors)
-
-    def maximise(self) -> None:
-        self.stage.maximise()
-
     def focus_next(self, step: int) -> None:
         self.stage.focus_next(step)
 
@@ -85,13 +75,9 @@ class Shell:
     def open_document(self, name: str) -> None:
         self.documents.open(name)
 
-    def picture(self) -> None:
-        """Save a picture of the window, in the folder of pictures."""
-        self.captures.wanted = True
-
     def escape(self, window: Host) -> None:
-        """Handle Escape: close what lies on top, end what takes long, make small what is large,
-        leave presentation, clear the selection or the mark; one of these at a time.
+        """Handle Escape: close what lies on top, end what takes long, leave presentation, clear
+        the selection or the mark; one of these at a time.
         """
         if self.files.dialog.is_open:
             self.files.dialog.cancel()
@@ -109,8 +95,6 @@ class Shell:
             window.box = None
         elif self.files.loading:
             self.files.cancel()
-        elif self.stage.maximised:
-            self.stage.maximise()
         elif window.state.preferences.presentation:
             window.edit(replace(window.state.preferences, presentation=False))
         elif chosen(window.state):
@@ -179,10 +163,6 @@ class Shell:
         """
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = bool(imgui.is_popup_open("", int(any_popup)))
-
-    def after_drawing(self, target: Target) -> None:
-        """Take pictures. Call once a frame, when all is drawn, before it is shown."""
-        self.captures.after_drawing(target)
 
     def end(self, window: Host, keeps_edits: bool = True) -> None:
         """Save the session, once, at the end. keeps_edits: with the scene's unsaved changes."""

@@ -263,10 +263,8 @@ class WindowRun:
         shown = canvas.shown
         if canvas.keeps or shown is None:
             hello_imgui.request_refresh()
-        else:
-            self.window.shell.after_drawing(shown)
-            if self.on_drawn is not None:
-                self.on_drawn(shown)
+        elif self.on_drawn is not None:
+            self.on_drawn(shown)
         canvas.show(self._platform.has_display)
 
     def _show_window(self) -> None:

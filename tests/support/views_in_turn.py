@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import get_args, get_type_hints
 
+from alone import show_only
 from option_changes import with_options
 from window_driver import Driver
 
@@ -42,13 +43,11 @@ def views_in_turn(d: Driver, pages: Sequence[str] = PAGES) -> Iterator[str]:
     stage = d.stage
     before = {view.name for view in stage.shown}
     for name in stage.views:
-        stage.show(name)
-        stage.maximise(name)
+        show_only(d, [name])
         for page in pages if name == LABORATORY else ("",):
             if page:
                 d.change(laboratory={"page": page})
             d.frames(6)
             d.until(lambda name=name: stage.views[name].settled)
             yield f"{name} {page}"
-        stage.maximise()
-        stage.show(name, name in before)
+    show_only(d, before)

@@ -73,7 +73,7 @@ class Driver:
         self.drop: Callable[[list[str]], None] = lambda paths: None  # files, upon the window
         self.stay = False  # the mouse, while a picture is taken
         self._pictures = 0
-        Glimpses.is_seen = lambda _: bool(self.run.on_drawn or self.window.shell.captures.wanted)
+        Glimpses.is_seen = lambda _: bool(self.run.on_drawn)
         viewer.WindowCanvas = Glimpses
         self.files.native = False  # the system's dialogs, which would wait for somebody
         on_drop = main_window.on_drop
@@ -127,7 +127,6 @@ class Driver:
         """Put the views where they are in a new window: topics share one."""
         if self.window.lecture.is_given:
             self.window.lecture.leave(self.window)
-        self.stage.maximised = ""
         first = layout.LAYOUTS[0]
         layout.switch(first.name)
         self.frames(3)
@@ -373,6 +372,14 @@ def main(report: Path, folder: Path, names: list[str]) -> None:
             entry.test_func = wrapped(name, test)
             imgui.test_engine.queue_test(engine, entry)
 
+    before_render = params.callbacks.before_imgui_render
+
+    def skip_unseen():
+        before_render()
+        if not Glimpses.is_seen(None):
+            imgui.get_io().display_framebuffer_scale = (0.0, 0.0)  # ImGui draws nothing then
+
+    params.callbacks.before_imgui_render = skip_unseen
     params.use_imgui_test_engine = True
     params.callbacks.register_tests = register
     params.fps_idling.enable_idling = False

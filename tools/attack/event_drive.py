@@ -277,7 +277,7 @@ class Attack:
             self._check()
         except AssertionError:
             del view.draw
-            self.window.shell.stage.failed.retry()
+            self.window.shell.stage.failed.errors.clear()
             self.d.until(lambda: not self.window.shell.stage.failed.errors)
             return
         raise AssertionError("a view that fails is not noticed: the attack sees nothing")
@@ -321,15 +321,14 @@ class Attack:
         )
 
     def _leave(self) -> None:
-        """Whatever covers the images: boxes, menus, a maximised view."""
+        """Whatever covers the images: boxes and menus."""
         for button in range(3):
             self.d.ctx.mouse_up(button)
         for _ in range(5):
             self.d.ctx.key_press(int(Key.escape))
             self.d.ctx.yield_()
         self.window.change(self.d.start)
-        self.window.shell.stage.maximised = ""
-        self.window.shell.stage.failed.retry()
+        self.window.shell.stage.failed.errors.clear()
         self.window.renderers.retry()
         self.d.until(lambda: not self.window.files.busy)
         self.d.ctx.yield_(3)

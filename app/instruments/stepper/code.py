@@ -6,8 +6,7 @@ Names have the same colours as in the formulas.
 from __future__ import annotations
 
 import functools
-import io
-import tokenize
+import re
 from collections.abc import Mapping, Sequence
 
 from imgui_bundle import ImVec2, ImVec4, imgui
@@ -15,7 +14,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 from lucida.app.ui import theme
 
 LINE = 1.18  # a line's height, in parts of the type's
-NAMED = ("ray", "hit", "closest")
+NAMED = re.compile(r"(\b(?:ray|hit|closest)\b)")
 
 
 def code(lines: Sequence[str], lit: Mapping[int, float], width_px: float) -> None:
@@ -47,7 +46,7 @@ def code_size(lines: Sequence[str]) -> ImVec2:
 
 
 def _color(word: str) -> ImVec4:
-    if word not in NAMED:
+    if not NAMED.fullmatch(word):
         return theme.TEXT
     return theme.legible(theme.RAY if word == "ray" else theme.MARK)
 
@@ -57,16 +56,8 @@ def code_words(text: str) -> tuple[tuple[int, str], ...]:
     """Split a line into parts, with the column of each: coloured names, and the text between
     them.
     """
-    try:
-        tokens = list(tokenize.generate_tokens(io.StringIO(text.strip()).readline))
-    except tokenize.TokenError:  # a line that goes on in the next one
-        return ((0, text),)
-    indent = len(text) - len(text.lstrip())
-    words, after = [], 0
-    for token in tokens:
-        if token.type == tokenize.NAME and token.string in NAMED:
-            start = indent + token.start[1]
-            words += [(after, text[after:start]), (start, token.string)]
-            after = start + len(token.string)
-    words.append((after, text[after:]))
+    words, column = [], 0
+    for word in NAMED.split(text):
+        words.append((column, word))
+        column += len(word)
     return tuple((column, word) for column, word in words if word)

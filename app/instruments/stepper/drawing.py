@@ -17,7 +17,6 @@ from lucida.app.ui.canvas import (
     Marks,
     canvas_unit,
     color_picture,
-    depth_picture,
     draw_canvas,
 )
 from lucida.app.ui.explaining.breaking import narrowed
@@ -66,18 +65,19 @@ class Canvases:
         self.begin_frame = self._uploads.begin_frame
         self._put: dict[str, Memo[*tuple[Any, ...], None]] = {}
 
-    def texture(self, name: str, values: Floats, scale: float) -> moderngl.Texture:
-        """Return a texture of linear light (height, width, 3), exposed by `scale` stops; or of ray
-        parameters (height, width), as far as `scale`.
-        """
-        self._put.setdefault(name, Memo(_put))(self._uploads, name, values, scale, theme.used())
+    def texture(self, name: str, color: Floats, exposure_ev: float) -> moderngl.Texture:
+        """Return a texture of linear light (height, width, 3)."""
+        put = self._put.setdefault(name, Memo(_put))
+        put(self._uploads, name, color, exposure_ev, theme.used())
         texture = self._uploads.get(name)
         assert texture is not None
         return texture
 
 
-def _put(uploads: Uploads, name: str, values: Floats, scale: float, look: theme.WindowLook) -> None:
-    uploads.put(name, (color_picture if values.ndim == 3 else depth_picture)(values, scale))
+def _put(
+    uploads: Uploads, name: str, color: Floats, exposure_ev: float, look: theme.WindowLook
+) -> None:
+    uploads.put(name, color_picture(color, exposure_ev))
 
 
 def written(lines: tuple[str, ...], lit: Lit, state: AppState) -> tuple[tuple[str, ...], Lit]:

@@ -23,7 +23,7 @@ from .recording import Recording
 
 SHOWN = ("object", "triangle", "a", "b", "c", "rows", "columns", "i", "j", "q", "x", "y", "ray",
          "hit", "closest", "ea", "eb", "ec", "z", "t")  # fmt: skip
-Wish = Literal["", "first", "back", "play", "step", "pixel", "object", "last"]
+Wish = Literal["", "back", "step", "pixel", "object"]
 
 
 class Variable(NamedTuple):
@@ -41,7 +41,6 @@ class Moment:
     line: its number in the source. pixel, ray, box (rows, columns), triangle and corners (its own,
     in the image): None outside the loop that sets them.
     canvas: linear light (height, width, 3), NaN where unset.
-    depth: (height, width), None in image order.
     t: of the closest hit so far of the pixel's ray; infinite for none.
     """
 
@@ -54,7 +53,6 @@ class Moment:
     triangle: Triangle | None
     corners: tuple[Corner, ...] | None
     canvas: Floats
-    depth: Floats | None
     t: float
 
 
@@ -88,30 +86,29 @@ def moment_at(recording: Recording, step: int) -> Moment:
         box=None if rows is None else (rows, now["columns"]),
         triangle=now.get("triangle") if line in recording.source.objects else None,
         corners=None if fresh("c", *in_object) is None else (now["a"], now["b"], now["c"]),
-        canvas=_written(recording, "canvas", step, now),
-        depth=_written(recording, "depth", step, now) if "depth" in now else None,
+        canvas=_canvas(recording, step, now),
         t=math.inf if closest is None else closest.t,
     )
 
 
-def after(recording: Recording, step: int, wish: Wish, count: int = 1) -> int:
-    """Return the step after a wish. count: of the lines to go on."""
+def after(recording: Recording, step: int, wish: Wish) -> int:
+    """Return the step after a wish."""
     last = len(recording) - 1
+    step = min(step, last)
     if wish in ("pixel", "object"):
         turns = recording.pixel_steps if wish == "pixel" else recording.object_steps
         at = bisect_right(turns, step)
         return turns[at] if at < len(turns) else last
-    to = {"first": 0, "last": last, "back": step - 1}.get(wish, step + count)
-    return min(max(to, 0), last)
+    return max(step - 1, 0) if wish == "back" else min(step + 1, last)
 
 
-def _written(recording: Recording, name: str, step: int, now: dict[str, Any]) -> Floats:
-    """Return the canvas or the depth buffer before a step."""
+def _canvas(recording: Recording, step: int, now: dict[str, Any]) -> Floats:
+    """Return the canvas before a step."""
     width, height = recording.size
-    if (buffer := now.get(name)) is None:
+    if (buffer := now.get("canvas")) is None:
         return np.full((height, width, 3), math.nan)
     array: Floats = buffer.empty.copy()
-    if count := bisect_right(recording.writes[name], step):
+    if count := bisect_right(recording.writes, step):
         rows, columns, values = zip(*buffer.log[:count], strict=True)
         array[rows, columns] = values  # of several writes to a pixel the last one stays
     return array

@@ -11,9 +11,7 @@ from typing import NamedTuple
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.state.app_state import AppState
-from lucida.app.state.bounds import range_of
 from lucida.app.state.options import Options
-from lucida.app.state.options.stepper import StepperOptions
 from lucida.app.ui import theme
 from lucida.app.ui.canvas import Marks
 from lucida.app.ui.checks import checkbox
@@ -27,7 +25,6 @@ from .model import Moment, Variable, Wish, describe
 from .recording import MOST_STEPS, Recording
 
 CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
-SPEED_EM = 6.5
 SLIDER_EM = 12.0  # the least width of the slider next to a title
 PROGRAM = 0.68  # of the height
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
@@ -42,52 +39,41 @@ class Step(NamedTuple):
     told: str
     shown: str
     chord: int
-    repeats: bool = False
 
 
 _KEY = imgui.Key
 STEPS = (
-    Step("first", "First", "to the beginning", "Home", int(_KEY.home)),
-    Step("back", "Back", "one line back", "Left", int(_KEY.left_arrow), True),
-    Step("play", "Play", "play and pause", "Space", int(_KEY.space)),
-    Step("step", "Step", "one line on", "Right", int(_KEY.right_arrow), True),
-    Step("pixel", "Next pixel", "to the next pixel's turn", "Down", int(_KEY.down_arrow), True),
+    Step("back", "Back", "one line back", "Left", int(_KEY.left_arrow)),
+    Step("step", "Step", "one line on", "Right", int(_KEY.right_arrow)),
+    Step("pixel", "Next pixel", "to the next pixel's turn", "Down", int(_KEY.down_arrow)),
     Step(
-        "object", "Next object", "to the next object's turn", "Shift+Down",
-        int(_KEY.mod_shift) | int(_KEY.down_arrow), True,
+        "object",
+        "Next object",
+        "to the next object's turn",
+        "Shift+Down",
+        int(_KEY.mod_shift) | int(_KEY.down_arrow),
     ),
-    Step("last", "Last", "to the end", "End", int(_KEY.end)),
-)  # fmt: skip
+)
 
 
-def controls(state: AppState, playing: bool) -> tuple[AppState, Wish]:
+def controls(state: AppState) -> tuple[AppState, Wish]:
     """Draw the controls. Return the state after them, and the wish of a clicked button."""
     wish: Wish = ""
     for number, (name, label, told, keys, *_) in enumerate(STEPS):
-        # Play and Pause have the same width.
-        width = button_width("Pause" if name == "play" else label)
         if number:
-            follow(width)
-        shown = "Pause" if name == "play" and playing else label
-        if imgui.button(f"{shown}###{name}", ImVec2(width, 0)):
+            follow(button_width(label))
+        if imgui.button(f"{label}###{name}"):
             wish = name
         imgui.set_item_tooltip(f"{told} ({keys})")
     options = state.options.stepper
-    _next(SPEED_EM * imgui.get_font_size())
-    flags = imgui.SliderFlags_.logarithmic
-    limits = range_of(StepperOptions, "speed")
-    changed, speed = imgui.slider_float("##speed", options.speed, *limits, "%.0f steps/s", flags)
-    if changed:
-        options = replace(options, speed=speed)
     sizes = list(dict.fromkeys([*CANVASES, options.canvas]))  # a lecture may ask for any size
     texts = [f"{width} x {height} pixels" for width, height in sizes]
-    _next(imgui.calc_text_size(texts[-1]).x + 2.2 * imgui.get_frame_height())
+    width = imgui.calc_text_size(texts[-1]).x + 2.2 * imgui.get_frame_height()
+    follow(width)
+    imgui.set_next_item_width(width)
     changed, number = imgui.combo("##pixels", sizes.index(options.canvas), texts)
     if changed:
         options = replace(options, canvas=sizes[number], steps=(0, 0))
-    follow(imgui.calc_text_size("depth").x + 1.5 * imgui.get_frame_height())
-    options = replace(options, depth=checkbox("depth", options.depth)[1])
-    tip("the nearest t of each pixel so far, near ones bright, in object order's canvas")
     follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
     changed, is_julia = checkbox("Julia", state.options.language == "julia")
     tip("the same lines in Julia; what runs is Python")
@@ -97,23 +83,13 @@ def controls(state: AppState, playing: bool) -> tuple[AppState, Wish]:
     return state.with_options(options), wish
 
 
-def _next(width: float) -> None:
-    """Place an item in the same row if there is room."""
-    follow(width)
-    imgui.set_next_item_width(width)
-
-
 def keys() -> Wish:
     """Return what the keys ask for while the panel has them.
 
     They are taken from ImGui's navigation, which keeps Tab and Enter.
     """
-    focused, repeat = imgui.InputFlags_.route_focused, imgui.InputFlags_.repeat
-    pressed = [
-        step.wish
-        for step in STEPS
-        if imgui.shortcut(step.chord, int(focused) | int(repeat) * step.repeats)
-    ]
+    flags = int(imgui.InputFlags_.route_focused) | int(imgui.InputFlags_.repeat)
+    pressed = [step.wish for step in STEPS if imgui.shortcut(step.chord, flags)]
     return pressed[0] if pressed and not imgui.is_any_item_active() else ""
 
 

@@ -10,7 +10,6 @@ import time
 from array import array
 from collections import defaultdict
 from collections.abc import Callable
-from functools import cached_property
 from types import FrameType
 from typing import Any
 
@@ -41,7 +40,7 @@ class Recording:
 
     lines: of each step its line in the source.
     changes: of each variable, the steps at which it got a value, and the values.
-    writes: of the canvas and of the depth buffer, the step of each write in its log.
+    writes: the step of each write in the canvas's log.
     pixel_steps, object_steps: the steps at which the bodies of the two loops begin.
     truncated: the run was stopped after MOST_STEPS.
     """
@@ -60,8 +59,7 @@ class Recording:
         self.changes: dict[str, tuple[array[int], list[Any]]] = defaultdict(
             lambda: (array("i"), [])
         )
-        self.writes = {"canvas": array("i"), "depth": array("i")}
-        self.pixel_steps, self.object_steps = array("i"), array("i")
+        self.writes, self.pixel_steps, self.object_steps = array("i"), array("i"), array("i")
         self.truncated = False
         self._code, self._is_wanted = program.__code__, is_wanted
         before = sys.gettrace()
@@ -76,12 +74,6 @@ class Recording:
     def __len__(self) -> int:
         """Return the number of steps."""
         return len(self.lines)
-
-    @cached_property
-    def farthest(self) -> float:
-        """The largest t in the depth buffer."""
-        _, (depth, *_) = self.changes["depth"]
-        return max((t for *_, t in depth.log), default=0.0)
 
     def _enter(self, frame: FrameType, event: str, argument: Any) -> Any:
         """Trace a function's lines if it is the program; ignore other functions. See
@@ -103,9 +95,8 @@ class Recording:
             if not known or value is not known[-1]:
                 steps.append(step)
                 known.append(value)
-        for name, written in self.writes.items():
-            if name in values:
-                written.extend([step] * (len(values[name].log) - len(written)))
+        if "canvas" in values:
+            self.writes.extend([step] * (len(values["canvas"].log) - len(self.writes)))
         line = frame.f_lineno - self.source.first_line
         if line == self.source.pixels.start:
             self.pixel_steps.append(step)

@@ -1,12 +1,11 @@
 """The loop stepper: both algorithms, line by line, over the window's scene and camera.
 
-The view plays the recordings, and shows the current step in the outside view. panel.py draws a run,
-model.py computes a step, pictures.py draws what a lecture shows.
+The view goes through the recordings, and shows the current step in the outside view. panel.py draws
+a run, model.py computes a step, pictures.py draws what a lecture shows.
 """
 
 from __future__ import annotations
 
-import time
 from collections.abc import Sequence
 from contextlib import ExitStack
 from dataclasses import replace
@@ -23,7 +22,7 @@ from lucida.renderer.system.memo import Memo
 
 from . import panel
 from .drawing import Canvases
-from .model import Moment, Wish, after, moment_at
+from .model import Moment, after, moment_at
 from .outside_items import run_items
 from .pictures import LoopPictures
 from .recording import Recording
@@ -32,7 +31,6 @@ from .runs import Made, Prepared, recordings
 STEPPER = "Stepper"
 TITLES = "Object order: rasterization", "Image order: ray tracing"
 LEAST_EM = 18.0  # the width and height of an algorithm; more than there is room for scrolls
-LONGEST_FRAME_S = 0.25  # what a frame that took longer is taken for
 
 
 class StepperView(Instrument):
@@ -44,16 +42,13 @@ class StepperView(Instrument):
         self._outside = view_of(views, OutsideView)
         self._resources = ExitStack()
         self._drawn: Prepared[Any] | None = None  # in the last frame
-        self.playing = False
-        self._before_s = 0.0  # when the last frame of playing was
-        self._owed = 0.0  # parts of a step that have not been taken
         self._moment = Memo(moment_at, len(TITLES))
         self._items = Memo(run_items)
         self.moments: tuple[Moment, ...] = ()
 
     @property
     def settled(self) -> bool:
-        return not (self.playing or (self._drawn is not None and self._drawn.busy))
+        return self._drawn is None or not self._drawn.busy
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
         self._canvases = Canvases(context)
@@ -66,12 +61,8 @@ class StepperView(Instrument):
         self._resources.close()
 
     def unseen(self, host: Host) -> None:
-        self.begin_anew()
         self._drawn = None
         self._outside.show(STEPPER, ())
-
-    def begin_anew(self) -> None:
-        self.playing = False
 
     def draw(self, host: Host) -> None:
         self._canvases.begin_frame()
@@ -79,38 +70,17 @@ class StepperView(Instrument):
         if not host.has_tools:
             self._pictures.draw(host, self._outside, STEPPER)
             return
-        state, clicked = panel.controls(host.state, self.playing)
+        state, clicked = panel.controls(host.state)
         host.apply(state)
         wish = panel.keys() or clicked
         made = self._runs.current(host)
         if made is not None:
-            self._move(host, made.value, wish)
+            if wish:
+                steps = host.state.options.stepper.steps
+                moved = (after(*one, wish) for one in zip(made.value, steps, strict=True))
+                self._keep(host, tuple(moved))
             self._panels(host, made.value)
             self._show_outside(host, made)
-
-    def _move(self, host: Host, runs: tuple[Recording, ...], wish: Wish) -> None:
-        """Take this frame's steps."""
-        options = host.state.options.stepper
-        ends = tuple(len(run) - 1 for run in runs)
-        steps = tuple(map(min, options.steps, ends))
-        now_s, self._before_s = time.monotonic(), self._before_s
-        if wish == "play":
-            self.playing, self._before_s, self._owed = not self.playing, now_s, 0.0
-            if self.playing and steps == ends:
-                steps = (0, 0)
-        elif wish:
-            self.playing = False
-            steps = tuple(after(run, step, wish) for run, step in zip(runs, steps, strict=True))
-        elif not self.playing:
-            return
-        if self.playing:
-            self._owed += min(now_s - self._before_s, LONGEST_FRAME_S) * options.speed
-            taken, self._before_s = int(self._owed), now_s
-            self._owed -= taken
-            steps = tuple(min(step + taken, end) for step, end in zip(steps, ends, strict=True))
-            self.playing = steps != ends
-            host.animate()
-        self._keep(host, steps)
 
     def _keep(self, host: Host, steps: tuple[int, ...]) -> None:
         """Put the steps into the state, for lectures and sessions. Undo is for scenes and cameras,
@@ -132,14 +102,10 @@ class StepperView(Instrument):
                 imgui.same_line()
             edges = imgui.ChildFlags_
             imgui.begin_child(TITLES[number], size, edges.borders | edges.nav_flattened)
-            shown = moment.canvas, exposure_ev
-            if options.depth and moment.depth is not None:
-                shown = moment.depth, run.farthest
-            texture = self._canvases.texture(TITLES[number], *shown)
+            texture = self._canvases.texture(TITLES[number], moment.canvas, exposure_ev)
             step = panel.run_panel(TITLES[number], run, moment, texture.glo, host.state, host.fonts)
             imgui.end_child()
             if step is not None:
-                self.playing = False
                 steps = host.state.options.stepper.steps
                 self._keep(host, (*steps[:number], step, *steps[number + 1 :]))
 

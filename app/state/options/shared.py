@@ -70,7 +70,7 @@ class ImageOptions(OptionPart):
         return replace(self, **{name: getattr(other, name) for name in DISPLAY})
 
 
-Theme = Literal["dark", "light", "contrast"]
+Theme = Literal["dark", "light"]
 
 
 @dataclass(frozen=True)

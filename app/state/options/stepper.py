@@ -24,13 +24,9 @@ class StepperOptions(OptionPart):
     canvas: (width, height).
     steps: of the run in object order, and of the one in image order; a step past the end is the
     last.
-    depth: show object order's depth buffer in place of its canvas.
-    speed: steps per second while it plays.
     """
 
     picture: Literal["loops", "rays", "program", "questions"] = "loops"
     parts: tuple[Runs, Runs] = (0.0, 0.0)
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (16, 12)
     steps: tuple[Step, Step] = (0, 0)
-    depth: bool = False
-    speed: Annotated[float, Range(1, 20_000)] = 8.0

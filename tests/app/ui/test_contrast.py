@@ -9,7 +9,7 @@ from lucida.app.instruments.outside.paint import DARKER, FIXED, RIM, figure_colo
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.contrast import contrast
 
-LOOKS = [theme.WindowLook("contrast")] + [
+LOOKS = [
     theme.WindowLook(name, presented)
     for name, presented in itertools.product(("dark", "light"), (False, True))
 ]
@@ -42,10 +42,9 @@ def test_text_is_legible_on_every_ground_of_the_theme(look):
             assert contrast(rgb(ink), rgb(getattr(theme, ground))) >= 4.5, ground
     for ground in (theme.FRAME_ACTIVE, theme.FILL, theme.LIT):
         assert contrast(rgb(theme.TEXT), rgb(ground)) >= 4.5
-    least = 7 if look.theme == "contrast" else 4.5
     for color in (*lines(), *palettes.CHANNELS, theme.ERROR, theme.GOOD):
         shown = rgb(theme.legible(color))
-        assert all(contrast(shown, rgb(getattr(theme, one))) >= least for one in (*GROUNDS, "LIT"))
+        assert all(contrast(shown, rgb(getattr(theme, one))) >= 4.5 for one in (*GROUNDS, "LIT"))
     for color in palettes.CHANNELS:
         assert max(shown := rgb(theme.legible(color))) - min(shown) > 0.24, "it is still a colour"
 

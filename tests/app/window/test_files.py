@@ -6,12 +6,11 @@ import threading
 import numpy as np
 import pytest
 from opened_things import found
-from PIL import Image
 from waiting import wait_for
 
 from lucida.app.ui.recent import MOST, RecentFiles
 from lucida.app.ui.surface import Target
-from lucida.app.window.capture import Captures, cut, free_path
+from lucida.app.window.capture import cut, free_path
 from lucida.app.window.files import Files
 from lucida.app.window.opening import OpenedScene, OpenedView, open_sources
 from lucida.renderer.files import load_scene, save_view, scene_parts
@@ -105,28 +104,6 @@ def test_a_name_that_is_taken_gets_a_number(tmp_path):
     assert free_path(path).name == "lucida-2.png"
     (tmp_path / "lucida-2.png").symlink_to(tmp_path / "nowhere")  # writing would follow it
     assert free_path(path).name == "lucida-3.png"
-    assert free_path(path, " ").name == "lucida 2.png"
-
-
-def test_pictures_are_saved_and_told(tmp_path):
-    files = Files(lambda: None)
-    captures = Captures(files)
-    captures.folder = tmp_path
-    captures.after_drawing(TARGET)
-    assert not files.busy
-    for _ in range(3):  # in one second, perhaps
-        captures.wanted = True
-        captures.after_drawing(TARGET)
-    told = []
-    wait_for(lambda: told.extend(polled(files)) or len(told) == 3)
-    found = list(tmp_path.glob("lucida 20*.png"))
-    assert len(found) == 3
-    assert all((np.asarray(Image.open(path)) == PIXELS).all() for path in found)
-    assert all(any(str(path) in text for text in told) for path in found)
-    captures.folder, captures.wanted = tmp_path / "no" / "folder", True
-    captures.after_drawing(TARGET)
-    wait_for(lambda: polled(files) or "does not exist" in files.message)
-    files.close()
 
 
 def polled(files):

@@ -58,7 +58,8 @@ def test_spheres_are_there_before_the_triangles() -> None:
     run = recorded(scene, rasterization)
     begun = moment_at(run, 2)
     drawn = (begun.canvas != scene.background).any(axis=2)
-    assert np.array_equal(drawn, np.isfinite(begun.depth)) and drawn.any()
+    (depth,) = run.changes["depth"][1]
+    assert np.array_equal(drawn, np.isfinite(depth.array) & drawn) and drawn.any()
 
 
 # What is cut off.

@@ -13,7 +13,7 @@ from lucida.app.instruments.stepper.code import code_words
 from lucida.app.instruments.stepper.model import moment_at
 from lucida.app.instruments.stepper.recording import Recording
 from lucida.app.instruments.stepper.runs import Made, Prepared, recordings
-from lucida.app.ui.canvas import CELL, LEAST_CELL, cell_of, color_picture, depth_picture
+from lucida.app.ui.canvas import CELL, LEAST_CELL, cell_of, color_picture
 from lucida.app.ui.explaining.breaking import breakable
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
@@ -120,15 +120,6 @@ def test_the_canvas_as_a_picture() -> None:
     unset = picture[CELL:, :CELL]
     assert len(np.unique(unset.reshape(-1, 3), axis=0)) == 2
     assert (unset[0] == unset[0, 0]).all() and (unset[CELL // 2, CELL // 2] != unset[0, 0]).any()
-
-
-def test_the_depth_buffer_as_a_picture() -> None:
-    depth = np.array([[1.0, 4.0, np.inf]])
-    picture = depth_picture(depth, 4.0)[CELL // 4, CELL // 4 :: CELL]
-    near, far, nothing = picture
-    assert near[0] > far[0] > 0
-    assert (near == near[0]).all() and (nothing != far).any()
-    assert depth_picture(np.full((1, 1), np.inf), 0.0).shape == (CELL, CELL, 3)
 
 
 def test_names_with_a_colour_stand_apart_in_the_code() -> None:

@@ -53,7 +53,7 @@ def drive_tab_reaches_every_control(d):
 
 
 def drive_a_frame_shows_where_the_keyboard_is(d):
-    for look in ("dark", "light", "contrast"):
+    for look in ("dark", "light"):
         d.change(preferences={"theme": look})
         d.ctx.nav_move_to(d.field("eye.x"))
         box = d.ctx.item_info(d.field("eye.x")).rect_clipped

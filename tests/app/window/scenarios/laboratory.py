@@ -2,13 +2,13 @@
 
 import itertools
 
-from maximised import Maximised
+from alone import Alone
 
 from lucida.app.instruments.laboratory.pages import PAGES
 from lucida.app.instruments.laboratory.view import LaboratoryView
 from lucida.app.instruments.outside.figure import Label
 
-ALONE = Maximised(LaboratoryView, "laboratory")
+ALONE = Alone(LaboratoryView, "laboratory")
 
 
 def drive_every_page_is_drawn_and_moves(d):

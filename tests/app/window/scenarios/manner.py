@@ -1,13 +1,12 @@
-"""The surroundings of the views: sheet, layouts, looks, bookmarks, pictures."""
+"""The surroundings of the views: sheet, layouts, looks, bookmarks."""
 
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 from imgui_bundle.imgui.test_engine import TestAction
-from PIL import Image
 from window_driver import SIZE, Key
 
 from lucida.app.images.pair.boxes import ask_resolution
-from lucida.app.images.pair.view import RASTER, RAY
+from lucida.app.images.pair.view import RASTER
 from lucida.app.ui import layout, theme
 from lucida.app.window.hints import Hints
 from lucida.app.window.platform import begin_letters, lock_letters
@@ -88,26 +87,6 @@ def drive_layouts_have_keys_and_remember_the_users_changes(d):
     d.settle()
 
 
-def drive_a_view_is_maximised_and_comes_back(d):
-    stage = d.stage
-    d.settle()
-    small = stage.rects[RASTER]
-    stage.show(RASTER)
-    d.until(lambda: stage.focused == RASTER)
-    d.press(CTRL | Key.m)
-    d.until(lambda: stage.maximised == RASTER and stage.rects[RASTER][2] > small[2] + 100)
-    assert RAY not in stage.rects
-    # From view to view, each in its turn.
-    d.press(Key.f3)
-    d.until(lambda: stage.maximised == RAY and RAY in stage.rects)
-    d.press(Key.escape)
-    d.until(lambda: not stage.maximised)
-    d.settle()
-    assert stage.rects[RASTER] == small
-    assert d.state == d.start
-    d.agreeing_images()
-
-
 def drive_the_keyboard_goes_from_view_to_view(d):
     stage = d.stage
     seen = []
@@ -139,24 +118,6 @@ def drive_bookmarks_bring_views_back(d):
     d.until(lambda: d.state.view == home)
     d.press(CTRL | Key.z)
     d.until(lambda: d.state.view == away)
-    d.menu("Camera/Bookmarks/Forget all bookmarks")
-    assert d.options.bookmarks == ()
-    d.press(CTRL | Key.z)
-    assert [mark.number for mark in d.options.bookmarks] == [3, 9]
-
-
-def drive_pictures_show_what_the_window_shows(d):
-    shell = d.window.shell
-    shell.captures.folder = d.folder / "pictures"
-    shell.captures.folder.mkdir(exist_ok=True)
-    d.settle()
-    d.press(Key.f12)
-    d.until(lambda: len(list(shell.captures.folder.glob("*.png"))) == 1)
-    window = np.asarray(Image.open(next(shell.captures.folder.glob("*.png"))))
-    assert window.shape == (SIZE[1], SIZE[0], 3)
-    assert window.std() > 20
-    d.until(lambda: not d.files.busy)
-    d.until(lambda: any("Saved" in text for text in shell.toasts.texts))
 
 
 def drive_a_narrow_window_keeps_its_menus_and_its_status(d):

@@ -1,12 +1,12 @@
 """The mistakes: lines made wrong by the mouse, their pictures on the screen."""
 
 import numpy as np
-from maximised import Maximised
+from alone import Alone
 
 from lucida.app.instruments.mistakes.view import MistakesView
 from lucida.renderer.images import to_srgb8
 
-ALONE = Maximised(MistakesView, "mistakes")
+ALONE = Alone(MistakesView, "mistakes")
 
 
 def _options(d):
