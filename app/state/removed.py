@@ -80,6 +80,7 @@ REPLACED: dict[tuple[str, str], tuple[str, str]] = {
     ("laboratory.page", "vector"): ("shapes", "a drawing is shown as pixels and as shapes"),
     ("objects.handle", "turn"): ("move", "the inspector's fields turn and scale objects"),
     ("objects.handle", "scale"): ("move", "the inspector's fields turn and scale objects"),
+    ("outside.gizmo", "distance"): ("none", "the camera panel has a field of d"),
     ("costs.against", "frames"): ("triangles", "no time is measured"),
 }
 
