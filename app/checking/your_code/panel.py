@@ -18,7 +18,6 @@ from lucida.app.checking.tasks import CheckTask
 from lucida.app.instruments.stepper.panel import CANVASES
 from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
-from lucida.app.ui.coded_text import coded_text
 from lucida.app.ui.explaining.symbols import arguments
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
@@ -147,7 +146,6 @@ def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> str:
     """
     title = ""
     if imgui.begin_child("told", room):
-        left = imgui.get_content_region_avail()
         for number, line in enumerate(lines):
             with lettering(*_lettering(line, number, fonts)):
                 if line.role == "code":
@@ -156,7 +154,7 @@ def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> str:
                     if imgui.text_link(line.text):
                         title = line.text.removeprefix(READ).removesuffix(".")
                 else:
-                    coded_text(line.text, left.x, _color(line.role), fonts)
+                    wrapped(line.text, _color(line.role))
     imgui.end_child()
     return title
 
