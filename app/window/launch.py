@@ -71,9 +71,7 @@ def run_viewer(
     if resolution is not None:
         start = replace(start, state=with_resolution(start.state, resolution))
     if code:
-        opened = start.state.with_options(
-            replace(start.state.options.your_code, file=stored(code), task="")
-        )
+        opened = start.state.with_options(replace(start.state.options.your_code, file=stored(code)))
         start = replace(start, state=opened, code=code)
     if photograph:
         laid = with_photograph(start.state, photograph, shown=True, follows=False)

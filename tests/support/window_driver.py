@@ -372,6 +372,14 @@ def main(report: Path, folder: Path, names: list[str]) -> None:
             entry.test_func = wrapped(name, test)
             imgui.test_engine.queue_test(engine, entry)
 
+    before_render = params.callbacks.before_imgui_render
+
+    def skip_unseen():
+        before_render()
+        if not Glimpses.is_seen(None):
+            imgui.get_io().display_framebuffer_scale = (0.0, 0.0)  # ImGui draws nothing then
+
+    params.callbacks.before_imgui_render = skip_unseen
     params.use_imgui_test_engine = True
     params.callbacks.register_tests = register
     params.fps_idling.enable_idling = False

@@ -1,4 +1,4 @@
-"""The panel of the view "Your code": its controls, the tasks, the pictures, the findings.
+"""The panel of the view "Your code": its controls and its findings.
 
 Functions take values and return wishes.
 """
@@ -13,8 +13,6 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.checking.mistakes.diagnosis import READ
 from lucida.app.checking.own_words import returned, signature
-from lucida.app.checking.task_file import BUILTIN
-from lucida.app.checking.tasks import CheckTask
 from lucida.app.instruments.stepper.panel import CANVASES
 from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
@@ -26,11 +24,11 @@ from lucida.app.ui.theme import Fonts
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.system.errors import one_line
 
-from .model import RAY, CodeReport
+from .model import RAY_TASK
 from .runs import CodeRuns
-from .words import ToldLine, ToldRole, verdict_of
+from .words import ToldLine, ToldRole
 
-CodeWish = Literal["", "open", "starter", "run", "stop", "edit"]
+CodeWish = Literal["", "open", "starter", "run", "stop"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is
 BESIDE = 2.0  # width / height from which words are next to the pictures
 WORDS_EM = 24.0  # the least width of the words there
@@ -45,21 +43,22 @@ INVITATION = (
 SIGNATURE = "def {}:\n    ...\n    return {}"
 TRUST = (
     "It has not been run: you have not opened it yourself. It would run in a process of its own,"
-    " with your rights. Read it first: Edit opens it."
+    " with your rights. Read it first: {}"
 )
 
 
 def invitation(fonts: Fonts) -> CodeWish:
     """Draw the panel when no file is open."""
-    task = next(task for task in BUILTIN if task.kind == RAY)
     wrapped(INVITATION)
     with lettering(fonts.mono):
-        code = SIGNATURE.format(signature(task), arguments(returned(task), task.notation))
+        code = SIGNATURE.format(
+            signature(RAY_TASK), arguments(returned(RAY_TASK), RAY_TASK.notation)
+        )
         imgui.text_colored(theme.DIM, code)
     wish: CodeWish = ""
     if imgui.button("Write a file to begin with..."):
         wish = "starter"
-    tip("a Python file with empty functions, and what each is to return")
+    tip("a Python file with an empty function, and what it is to return")
     follow(button_width("Open a Python file..."))
     if imgui.button("Open a Python file..."):
         wish = "open"
@@ -82,10 +81,7 @@ def head(
         imgui.text(one_line(file.name))
     tip(one_line(str(file.parent)))
     running_s = runs.running_s if runs is not None else 0.0
-    buttons: list[tuple[CodeWish, str, str]] = [
-        ("edit", "Edit", "open it in your editor; it runs again when you save it"),
-        ("open", "Open...", "another Python file"),
-    ]
+    buttons: list[tuple[CodeWish, str, str]] = [("open", "Open...", "another Python file")]
     if running_s > RUNNING_S:
         buttons.insert(0, ("stop", "Stop", "end its process"))
     elif runs is not None:
@@ -102,29 +98,6 @@ def head(
         imgui.align_text_to_frame_padding()
         imgui.text_colored(theme.DIM, text)
     return wish, canvas
-
-
-def tasks(report: CodeReport, chosen: CheckTask | None) -> CheckTask | None:
-    """Draw a button for each task whose function the file has, with its verdict. Return the clicked
-    one.
-    """
-    clicked = None
-    for number, task in enumerate(report.tasks):
-        verdict = verdict_of(report, task)
-        label = f"{task.name}: {verdict or '...'}"
-        if number:
-            follow(button_width(label))
-        on = task == chosen
-        color = {"correct": theme.GOOD, "wrong": theme.ERROR, "failed": theme.ERROR}.get(verdict)
-        imgui.push_style_color(imgui.Col_.text, color or theme.DIM)
-        imgui.push_style_color(imgui.Col_.border, theme.TEXT if on else theme.LINE)
-        imgui.push_style_var(imgui.StyleVar_.frame_border_size, theme.px(2 if on else 1))
-        if imgui.button(f"{label}###{task.name}"):
-            clicked = task
-        imgui.pop_style_var()
-        imgui.pop_style_color(2)
-        tip(task.text)
-    return clicked
 
 
 def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
