@@ -136,11 +136,7 @@ def run(arguments: argparse.Namespace) -> int:
         agreed = arguments.check or arguments.outside or arguments.results is not None
         lecture = load_lecture(path, None if agreed else frozenset())
     except OutsideError as error:
-        if arguments.export is not None or arguments.answers is not None:
-            raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
-        from lucida.app.window.lecturing import ask_lecture
-
-        return ask_lecture(path, error, arguments.size)
+        raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
     for note in lecture.notes if arguments.check else lecture.summary:
         print(f"lucida: {one_line(note)}", file=sys.stderr)
     if arguments.check:

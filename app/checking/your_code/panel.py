@@ -16,7 +16,6 @@ from lucida.app.checking.own_words import returned, signature
 from lucida.app.instruments.stepper.panel import CANVASES
 from lucida.app.state.options.your_code import YourCodeOptions
 from lucida.app.ui import theme
-from lucida.app.ui.coded_text import coded_text
 from lucida.app.ui.explaining.symbols import arguments
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import wrapped
@@ -110,17 +109,14 @@ def words(lines: Sequence[ToldLine], fonts: Fonts) -> str:
     """
     title = ""
     if imgui.begin_child("told", imgui.get_content_region_avail()):
-        width = imgui.get_content_region_avail().x
         for number, line in enumerate(lines):
             font = fonts.bold if number == 0 else fonts.text
             with lettering(fonts.mono if line.role == "code" else font):
-                if line.role == "code":
-                    wrapped(line.text)
-                elif line.role == "read":
+                if line.role == "read":
                     if imgui.text_link(line.text):
                         title = line.text.removeprefix(READ).removesuffix(".")
                 else:
-                    coded_text(line.text, width, _color(line.role), fonts)
+                    wrapped(line.text, _color(line.role))
     imgui.end_child()
     return title
 
