@@ -243,12 +243,12 @@ class OutsideView(Instrument):
         right, down = focused_steps()
         if right or down:
             camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
-            host.apply(self.with_own_camera(host.state, camera), (self.name, "turned"))
+            host.apply(self.with_own_camera(host.state, camera))
             return
         was_dragging = self._mouse.dragging
-        camera, gesture = self._mouse.follow(scope)
+        camera = self._mouse.follow(scope)
         if camera != scope.camera:
-            host.apply(self.with_own_camera(host.state, camera), gesture)
+            host.apply(self.with_own_camera(host.state, camera))
         clicked = self._mouse.clicked()
         if self.hosted.take_click(host, scope, clicked, partial(self.object_under, host)):
             return
@@ -284,7 +284,7 @@ class OutsideView(Instrument):
             ImageRequest(state.scene, camera, size), both.textures.rasterizer, tools.overlay,
             refines=not moves,
         )  # fmt: skip
-        if self._scopes.waits or moves or not tools.ground.settled:
+        if moves or not tools.ground.settled:
             host.animate()
         near, units = nearest(camera, scope), units_px(scope.extent)
         content = self.content(host, OutsideScreen(camera, size, near, *units))
