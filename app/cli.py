@@ -16,7 +16,7 @@ from collections.abc import Sequence
 
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
-from .commands import COMMANDS, WITHOUT_FILE, scenes, view
+from .commands import COMMANDS, view
 from .commands.arguments import TRACEBACK_VARIABLE, Parser
 from .window.process import open_streams
 
@@ -25,12 +25,15 @@ INTERRUPTED = 128 + signal.SIGINT
 # Commands and options that left, and what to use instead.
 LEFT = {
     "install-desktop": "start lucida in a terminal",
+    "completion": "`lucida COMMAND --help` lists the options",
+    "scenes": "`lucida scene` lists the built-in scenes",
     "--enlargement": "Rasterizer.render(enlargement=4) in Python has it",
     "--ignore-distortion": "--lens none takes a lens off, in `lucida camera` --no-lens",
     "--time-limit": "a task file has it: seconds = 60",
     "--memory-limit": "a task file has it: memory_mb = 2048",
     "--show": "`lucida compare` marks the causes; the window's view Compare shows the difference",
-    "--photographs": "`lucida render --view SET --all` draws an image for each camera",
+    "--photographs": "`lucida render --view SET#1 -o OUT` draws one camera of a set; a loop, all",
+    "--all": "`lucida render --view SET#1 -o OUT` draws one camera of a set; a loop, all",
     "--undistort": "COLMAP's image_undistorter undistorts the photographs of a data set",
 }
 BROKEN_PIPE = 128 + 13  # SIGPIPE, which Windows does not have
@@ -77,7 +80,6 @@ def _dispatch(arguments: list[str]) -> int:
     arguments = arguments if command is view else arguments[1:]
     parser = Parser(prog="lucida" if command is view else f"lucida {command.NAME}")
     command.configure(parser)
-    parser.set_defaults(commands=COMMANDS)  # for the completion, which describes all of them
     return int(command.run(parser.parse_args(arguments)))
 
 
@@ -87,10 +89,6 @@ def _check_has_not_left(arguments: list[str]) -> None:
         name = argument.partition("=")[0]
         if name in LEFT and (name.startswith("-") or argument is arguments[0]):
             raise LucidaError(name, "is no longer part of Lucida", LEFT[name])
-    if arguments[:1] == [scenes.NAME] and arguments[1:] and not arguments[1].startswith("-"):
-        raise LucidaError(
-            scenes.NAME, "takes no file", f"lucida scene {arguments[1]} describes one"
-        )
 
 
 def _check_is_no_command(arguments: list[str]) -> None:
@@ -104,8 +102,7 @@ def _check_is_no_command(arguments: list[str]) -> None:
     commands = [command.NAME for command in COMMANDS]
     close = close_matches(name, [*BUILTIN_SCENES, *commands])
     if close and close[0] in commands:
-        rest = arguments[1:] if close[0] not in WITHOUT_FILE else []
-        meant = shortened(shlex.join(["lucida", close[0], *rest]), 200)
+        meant = shortened(shlex.join(["lucida", close[0], *arguments[1:]]), 200)
         remedy = f"did you mean {meant}?"
     elif name not in BUILTIN_SCENES and arguments[1:] and not arguments[1].startswith("-"):
         remedy = "see 'lucida --help'"

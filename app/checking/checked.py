@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 
 Status = Literal["right", "wrong", "failed"]
 LONGEST_VALUE = 400  # characters of an argument, enough to try the case by hand
-CHANGES = (
-    "Asked again, the first wrong case has another answer: is there a random number in it, or does "
-    "it keep something from one call to the next?"
-)
 
 
 @dataclass(frozen=True)
@@ -118,32 +114,7 @@ def checked(student: ProgramStudent, task: CheckTask) -> TaskResult:
     """Return the result of one task. The student's code must have its function."""
     kind = KINDS[task.kind]
     cases = kind.cases(task)
-    result = judged(task, cases, student.call(kind.calls(task, cases)))
-    if result.status == "wrong" and task.feedback == "diagnosis":
-        return _asked_again(student, result)
-    return result
-
-
-def _asked_again(student: ProgramStudent, result: TaskResult) -> TaskResult:
-    """Call the first wrong case again, twice, in a program that remembers no other call. If an
-    answer has changed, add a sentence on that to the result.
-    """
-    task, first = result.task, result.first
-    assert first is not None
-    kind = KINDS[task.kind]
-    student.restart()
-    cases = [first.case, first.case]
-    run = student.call(kind.calls(task, cases))
-    if run.failure is not None or any(isinstance(value, Failure) for value in run.values):
-        return result
-    given, problems = kind.given(task, cases, run.values)
-    if problems or np.array_equal(
-        np.asarray(given, float), np.asarray([first.answer] * 2, float), equal_nan=True
-    ):
-        return result
-    told = result.diagnosis
-    assert told is not None
-    return replace(result, diagnosis=replace(told, sentences=(CHANGES, *told.sentences)))
+    return judged(task, cases, student.call(kind.calls(task, cases)))
 
 
 def judged(task: CheckTask, cases: Sequence[CheckCase], run: Run) -> TaskResult:

@@ -9,7 +9,6 @@ from . import (
     camera,
     check,
     compare,
-    completion,
     doctor,
     export,
     figure,
@@ -18,7 +17,6 @@ from . import (
     pick,
     render,
     scene,
-    scenes,
     tasks,
 )
 
@@ -35,8 +33,5 @@ COMMANDS = (
     tasks,
     lecture,
     scene,
-    scenes,
     doctor,
-    completion,
 )
-WITHOUT_FILE = (doctor.NAME, completion.NAME)

@@ -33,7 +33,7 @@ TRACEBACK_VARIABLE = "LUCIDA_TRACEBACK"
 
 SCENE_HELP = """\
 a scene file (.toml), a model (.obj .ply .stl .off .glb .gltf), or the name
-of a built-in scene (`lucida scenes` lists them)"""
+of a built-in scene (`lucida scene` lists them)"""
 SIZE_HELP = f"""\
 width and height in pixels (default: the size that the file of --view
 states for its image; otherwise {DEFAULT_SIZE[0]}x{DEFAULT_SIZE[1]})"""

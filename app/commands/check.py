@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 from . import arguments as common
-from .asked_tasks import all_tasks, named
+from .tasks import all_tasks, named
 
 if TYPE_CHECKING:
     from lucida.app.checking.checked import TaskResult

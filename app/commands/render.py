@@ -20,8 +20,6 @@ if TYPE_CHECKING:
 
 NAME = "render"
 
-ENDINGS = (".png", ".ppm", ".pgm", ".pbm", ".pfm", ".exr", ".npy")
-
 DESCRIPTION = "Draw a scene with one of the two renderers and write one channel into a file."
 
 EPILOG = """\
@@ -51,10 +49,9 @@ examples:
   lucida render bunny.obj -o depth.npy --channel depth --size 640x480 --view corner.toml
   lucida render bunny.obj -o front.png --eye 0,0.1,0.5 --target 0,0.1,0 --fov 35
   lucida render still-life -o large.png --renderer ray --size 16384x16384 --workers 4
-  lucida render scene.toml -o depths --view transforms.json --all --channel depth --format .exr
 
 An image of more than 67 million pixels is drawn in parts, up to 16384 a side, as .png or .exr.
-After a break, it continues where it stopped, and so does --all.
+After a break, it continues where it stopped.
 
 exit status: 0 written (a line says so if nothing is hit), 2 a mistake or a failure,
 130 interrupted"""
@@ -80,18 +77,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_view_option(parser)
     add_camera_options(parser)
     common.add_drawing_options(parser)
-    parser.add_argument(
-        "--all",
-        action="store_true",
-        help="with --view: an image for each of its cameras, into the folder OUT",
-    )
-    parser.add_argument(
-        "--format",
-        choices=ENDINGS,
-        metavar="ENDING",
-        help="with --all: of the images, as below (default: .png)",
-    )
-    add_workers_options(parser, "images, or parts of a large one,")
+    add_workers_options(parser, "the parts of a large image")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -102,16 +88,10 @@ def run(arguments: argparse.Namespace) -> int:
 
     if arguments.renderer != "ray":
         check_effects(arguments)
-    if arguments.all:
-        from .render_many import render_all
-
-        return render_all(arguments)
-    if arguments.format:
-        raise LucidaError("argument --format", "is for --all", "give OUT an ending")
     ending = check_image_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
     if is_in_parts(arguments):
-        from .render_many import render_in_parts
+        from .render_parts import render_in_parts
 
         return render_in_parts(scene, camera, arguments, ending)
     frame = draw(scene, camera, arguments)

@@ -1,4 +1,4 @@
-"""`lucida scene FILE`: the contents of a scene, and what is odd about it."""
+"""`lucida scene [SCENE]`: the contents of a scene, and what is odd about it."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ DESCRIPTION = """\
 List what is in a scene: its objects with their types, triangles, bounds and colours, its lights
 and its camera; properties of its materials that are not shown; models that are open, turned
 inwards or in parts differently; the model files that it reads, marking those outside its folder;
-and its models' cameras."""
+and its models' cameras. Without SCENE: the names of the built-in scenes, the default one first."""
 
 EPILOG = """\
 exit status: 0 done (also if something is odd: all of it can be drawn), 2 a mistake or a failure
 
 examples:
+  lucida scene                        the built-in scenes
   lucida scene my-scene.toml
   lucida scene bunny.obj"""
 
@@ -31,14 +32,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
     from .arguments import SCENE_HELP
 
     parser.description, parser.epilog = DESCRIPTION, EPILOG
-    parser.add_argument("scene", metavar="SCENE", help=SCENE_HELP)
+    parser.add_argument("scene", nargs="?", metavar="SCENE", help=SCENE_HELP)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    from lucida.renderer.files import load_scene
+    from lucida.renderer.files import BUILTIN_SCENES, load_scene
 
     from .arguments import check_is_scene, say
 
+    if arguments.scene is None:
+        print("\n".join(BUILTIN_SCENES))
+        return 0
     check_is_scene(arguments.scene)
     scene = load_scene(arguments.scene)
     say(*_contents(scene), *_named(scene))

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import sys
 import textwrap
 from typing import TYPE_CHECKING
+
+from lucida.renderer.system.errors import LucidaError, visible
 
 from .arguments import say
 
 if TYPE_CHECKING:
-    from lucida.app.checking.tasks import CheckTask
+    from lucida.app.checking.tasks import CheckTask, Limits
 
 NAME = "tasks"
 WIDTH = 96
@@ -36,8 +39,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     from lucida.app.checking.courses import course_names
-
-    from .asked_tasks import all_tasks, named
 
     tasks, _ = all_tasks(arguments.tasks)
     if arguments.task is not None:
@@ -74,3 +75,32 @@ def described(task: CheckTask) -> list[str]:
         "",
         f"{task.points:g} {points}. In the lecture: {task.part}.",
     ]
+
+
+def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
+    """Return the tasks and limits of a task file or a course; without one, the built-in tasks."""
+    from lucida.app.checking.task_file import BUILTIN
+    from lucida.app.checking.tasks import Limits
+
+    if source is None:
+        return list(BUILTIN), Limits()
+    from lucida.app.checking.courses import task_path
+    from lucida.app.checking.task_file import load_tasks
+
+    found = load_tasks(task_path(source))
+    for note in found.notes:
+        print(f"lucida: {visible(source)}: {note}", file=sys.stderr)
+    return list(found.tasks), found.limits
+
+
+def named(tasks: list[CheckTask], name: str, field: str = "--task") -> CheckTask:
+    """Return the task with a name, also with _ for -, or with a function's name. Raises
+    LucidaError. field: the argument that has the name.
+    """
+    from lucida.renderer.files.reading import suggestion
+
+    for task in tasks:
+        if name in (task.name, task.function) or name.replace("_", "-") == task.name:
+            return task
+    names = [task.name for task in tasks]
+    raise LucidaError(field, f"{name[:40]!r} is unknown", suggestion(name, names))

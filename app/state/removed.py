@@ -44,6 +44,7 @@ REMOVED: dict[str, str] = {
     "photograph.distorted": "the lens stays; COLMAP's image_undistorter takes it out",
     "photograph.lay": "a photograph is laid over the images",
     "your_code.tasks": "`lucida check --tasks` asks a course's own tasks",
+    "your_code.task": "the view shows viewing_ray; `lucida check` tries other tasks",
     "images.values": "a pixel's colour is written as the bytes that are shown",
     "images.pixel_size": "images.resolution sets the number of large pixels",
     **dict.fromkeys(("images.tinted", "images.component"), "all of a colour is shown"),
@@ -79,6 +80,7 @@ REPLACED: dict[tuple[str, str], tuple[str, str]] = {
     ("laboratory.page", "vector"): ("shapes", "a drawing is shown as pixels and as shapes"),
     ("objects.handle", "turn"): ("move", "the inspector's fields turn and scale objects"),
     ("objects.handle", "scale"): ("move", "the inspector's fields turn and scale objects"),
+    ("outside.gizmo", "distance"): ("none", "the camera panel has a field of d"),
     ("costs.against", "frames"): ("triangles", "no time is measured"),
 }
 

@@ -11,7 +11,6 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from PIL import Image
 
-from lucida.app.instruments.outside.svg import painted
 from lucida.app.state.bounds import range_of
 from lucida.app.ui import theme
 from lucida.app.ui.host import Host
@@ -22,7 +21,7 @@ from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import same
 
 from .figure_choice import ENDINGS, FigureChoice, Ground, What, check_ending
-from .figures import encoder, figure_of
+from .figures import encoder, figure_of, painted
 
 TITLE, PREVIEW_EM = "Export figure", 22.0
 GRAY = 128  # under what is transparent

@@ -45,12 +45,12 @@ def check_writable(path: str | Path) -> Path:
     return target
 
 
-def file_stem(name: str, others: str = " -_") -> str:
-    """Return a file's name, without ending, for the name of a scene or an image: letters with their
-    combining marks, digits and `others`; "-" for any other character.
+def file_stem(name: str) -> str:
+    """Return a file's name, without ending, for the name of a scene: letters with their combining
+    marks, digits, spaces and _; "-" for any other character.
     """
     return "".join(
-        c if c.isalnum() or c in others or unicodedata.category(c)[0] == "M" else "-" for c in name
+        c if c.isalnum() or c in " _" or unicodedata.category(c)[0] == "M" else "-" for c in name
     )
 
 

@@ -141,7 +141,7 @@ def test_it_draws(installed, environment, tmp_path, gl_backend):
 
 
 def test_it_knows_its_scenes_and_version(installed, environment, tmp_path):
-    for argument, expected in (("scenes", "still-life"), ("--version", __version__)):
+    for argument, expected in (("scene", "still-life"), ("--version", __version__)):
         end = run(installed / "lucida", argument, cwd=tmp_path, env=environment)
         assert end.returncode == 0, end.stderr
         assert expected in end.stdout

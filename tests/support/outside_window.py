@@ -29,8 +29,8 @@ def place(d: Driver, point: np.ndarray) -> tuple[float, float]:
     """Return the place of a world point in the window."""
     at = scope(d)
     size = max(1, round(at.extent.x)), max(1, round(at.extent.y))
-    found = OutsideScreen(at.shown, size).spots(np.asarray(point, float))
-    return at.origin.x + float(found[0][0]), at.origin.y + float(found[0][1])
+    x, y = OutsideScreen(at.shown, size).seen(np.asarray(point, float)).points
+    return at.origin.x + float(x), at.origin.y + float(y)
 
 
 def empty_place(d: Driver) -> tuple[float, float]:

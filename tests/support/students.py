@@ -18,5 +18,5 @@ CAMERA = {
 }
 
 
-def called(function: str, vectorised: bool = False, /, **arguments) -> Call:
-    return Call(function, tuple(arguments.items()), vectorised)
+def called(function: str, /, **arguments) -> Call:
+    return Call(function, tuple(arguments.items()))

@@ -27,8 +27,7 @@ _ENCODING = 0.1  # of the progress
 class Film:
     """Pictures to be drawn, and a file to be made of them.
 
-    path: that file, or a folder. write: makes the file; None if it is a folder. names: of the
-    pictures, without ending; none for their numbers.
+    path: that file, or a folder. write: makes the file; None if it is a folder.
     """
 
     path: Path
@@ -36,7 +35,6 @@ class Film:
     shots: Sequence[Shot]
     look: Look
     write: Writer | None = None
-    names: Sequence[str] = ()
 
     @property
     def folder(self) -> Path:
@@ -44,8 +42,8 @@ class Film:
 
     @property
     def frames(self) -> list[Path]:
-        names = self.names or [f"{number:06d}" for number in range(len(self.shots))]
-        return [self.folder / f"{name}{self.look.ending}" for name in names]
+        numbers = range(len(self.shots))
+        return [self.folder / f"{number:06d}{self.look.ending}" for number in numbers]
 
 
 def begin(film: Film) -> int:

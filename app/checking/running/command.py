@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import shlex
-import shutil
 import sys
 import time
 from collections.abc import Sequence
@@ -20,7 +19,6 @@ from .program import (
     ProgramStudent,
     StudentProgram,
     told_call,
-    told_over,
     whole_number,
 )
 
@@ -40,12 +38,7 @@ class CommandStudent(ProgramStudent):
         super().__init__(os.path.basename(self._words[0]), limits, account)
 
     def functions(self) -> None:
-        """Return None, because the functions are not known. Raises LucidaError if there is no such
-        program.
-        """
-        if shutil.which(self._words[0]) is None:
-            remedy = "is it installed, executable, and on the PATH?"
-            raise LucidaError("", "there is no such program", remedy, self._words[0])
+        """Return None, because the functions are not known."""
 
     def call(self, calls: Sequence[Call]) -> Run:
         with self._turn:
@@ -53,7 +46,6 @@ class CommandStudent(ProgramStudent):
             if self._closed:
                 return Run((), "", Failure("ended", f"{self._name}: it is closed"))
             try:
-                self.functions()
                 program = self._begin(self._words, os.getcwd(), self.limits)
             except LucidaError as error:
                 return Run((), "", Failure("missing", str(error)))
@@ -75,11 +67,10 @@ class CommandStudent(ProgramStudent):
                 if line := program.line(end).strip():
                     values.append(json.loads(line, parse_int=whole_number))
         except ProgramOverError as over:
-            kind, text = told_over(over, self.limits, "it")
-            text = f"{self._name}: {text}, with {len(values)} of {len(calls)} answers"
-            if kind == "time":
+            text = f"{self._name}: {over.text}, with {len(values)} of {len(calls)} answers"
+            if over.kind == "time":
                 text += "; does it read to the end of its input, and flush what it prints?"
-            return Failure(kind, text, call=len(values))
+            return Failure(over.kind, text, call=len(values))
         except (ValueError, RecursionError):
             told = shortened(one_line(line.decode("utf-8", "replace")), 80)
             told = f"{self._name}: answer {len(values) + 1} is no JSON: {told}"

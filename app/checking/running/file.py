@@ -6,6 +6,7 @@ import json
 import os
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, Self
@@ -21,16 +22,14 @@ from .program import (
     ProgramStudent,
     StudentProgram,
     told_call,
-    told_over,
     whole_number,
 )
 
 _LONGEST_FILE = 4 << 20  # bytes
 _LONGEST_TEXT = 300  # of a message
 _PYTHON_MB = 96  # memory of Python and its libraries, on top of the student's limit
-_MEMORY_STATUS = 86  # as in student_process.py
 _MAIN = 'put what runs on its own under `if __name__ == "__main__":`'
-_GARBLED = (ValueError, LookupError, TypeError, RecursionError)  # not written by our code
+_GARBLED = "it wrote into a file of ours: one that it has not opened itself"
 
 
 class NotRunnableError(LucidaError):
@@ -48,7 +47,6 @@ class FileStudent(ProgramStudent):
     close(): nothing else ends the process while this one lives.
 
     python: the interpreter; "" for this process's own.
-    files: its own imported modules.
     """
 
     def __init__(
@@ -60,10 +58,8 @@ class FileStudent(ProgramStudent):
     ) -> None:
         self._path, self._python = Path(path), python
         super().__init__(one_line(self._path.name), limits, account)
-        self.files: tuple[str, ...] = ()
         self._functions: frozenset[str] = frozenset()
         self._failed: Failure | None = None  # permanent
-        self._used_s = 0.0  # time of the process's runs
         self._printed = ""
 
     def __enter__(self) -> Self:
@@ -82,28 +78,27 @@ class FileStudent(ProgramStudent):
 
     def call(self, calls: Sequence[Call]) -> Run:
         with self._turn:
-            begin = time.monotonic()
-            end = begin + self.limits.seconds
+            end = time.monotonic() + self.limits.seconds
             values: list[Any] = []
             failure = self._start(end)
             if self._program and calls:
-                failure = self._run(self._program, calls, values, end)
-            if self._program:
+                asked = [(call.function, call.arguments) for call in calls]
+                failure = self._answers(self._program, asked, calls, values, end)
                 self._printed += self._program.output()
-            self._used_s += time.monotonic() - begin
+                if failure:
+                    self._end()
             printed, self._printed = self._printed, self._printed if self._failed else ""
             return Run(tuple(values), printed, failure)
 
     def _start(self, end: float) -> Failure | None:
         """Start a process that runs the file, unless there is one. Return the failure, if any."""
-        if self._closed or self._failed:
-            return self._failed or Failure("ended", f"{self._name}: it is closed")
-        if self._program and not self._program.stopped and self._used_s < self.limits.seconds:
-            return None
+        if self._closed:
+            return Failure("ended", f"{self._name}: it is closed")
+        if self._failed or (self._program and not self._program.stopped):
+            return self._failed
         self._end()
-        self._used_s = 0.0
         path = os.path.realpath(self._path)
-        limits = Limits(self.limits.seconds, self.limits.memory_mb + _PYTHON_MB, self.limits.output)
+        limits = replace(self.limits, memory_mb=self.limits.memory_mb + _PYTHON_MB)
         python = self._python or interpreter() or "python3"
         try:
             source = read_file(self._path, _LONGEST_FILE).decode("latin-1")
@@ -113,61 +108,49 @@ class FileStudent(ProgramStudent):
             told = LucidaError("", error.problem, error.remedy, error.source or str(self._path))
             self._failed = Failure("missing", str(told))
             return self._failed
-        program.send(json.dumps({"path": path, "source": source}).encode() + b"\n")
-        failure = self._imported(program, end)
+        opened: list[Any] = []
+        failure = self._answers(program, {"path": path, "source": source}, [None], opened, end)
+        failure = failure or (opened[0] if isinstance(opened[0], Failure) else None)
+        self._printed += program.output()
         if failure:
-            self._printed = program.output()
             self._end()
-            if not program.stopped:
-                self._failed = failure
+            self._failed = None if program.stopped else failure
+        else:
+            self._functions = frozenset(map(str, opened[0] if isinstance(opened[0], list) else ()))
         return failure
 
-    def _imported(self, program: StudentProgram, end: float) -> Failure | None:
-        """Wait until the file is imported. Return the failure, if any."""
-        try:
-            line = program.line(end)
-            told = json.loads(line[1:])
-            self.files = tuple(map(str, told["files"]))
-            if line[:1] == b"f":
-                return self._failure(told, None)
-            self._functions = frozenset(map(str, told["functions"]))
-            return None
-        except ProgramOverError as error:
-            over = error
-        except _GARBLED:
-            over = ProgramOverError("garbled")
-        if over.status in (126, 127):
-            who = f" that {self._account.name} can read" if self._account else ""
-            return Failure("missing", f"no Python could be started; name one{who}: --python")
-        return self._over(over, "while the file is imported", _MAIN)
-
-    def _run(
-        self, program: StudentProgram, calls: Sequence[Call], values: list[Any], end: float
+    def _answers(
+        self,
+        program: StudentProgram,
+        request: Any,
+        calls: Sequence[Call | None],
+        values: list[Any],
+        end: float,
     ) -> Failure | None:
-        """Append the answers to `values`. Return the reason if the run ended early."""
-        asked = [(call.function, call.arguments) for call in calls]
-        program.send(json.dumps(asked).encode() + b"\n")
+        """Append the answers to `values`. Return the reason if the process ended early.
+
+        calls: those of the request; None for the file's import.
+        """
+        program.send(json.dumps(request).encode() + b"\n")
         try:
             for call in calls:
                 line = program.line(end)
                 told = json.loads(line[1:], parse_int=whole_number)
-                answer = told if line[:1] == b"a" else self._failure(told, call, len(values))
-                values.append(answer)
+                values.append(told if line[:1] == b"a" else self._failure(told, call, len(values)))
             return None
         except ProgramOverError as error:
             over = error
-        except _GARBLED:
-            over = ProgramOverError("garbled")
+        except (ValueError, LookupError, TypeError, RecursionError):  # not written by our code
+            over = ProgramOverError("ended", _GARBLED)
         number = len(values)
-        place = f"in call {number + 1} of {len(calls)}: {told_call(calls[number])}"
-        failure = self._over(over, place, "is each call slow, or a loop endless?", number)
-        self._printed += program.output()
-        self._end()
-        return failure
+        call, place, remedy = calls[number], "while the file is imported", _MAIN
+        if call is not None:
+            place = f"in call {number + 1} of {len(calls)}: {told_call(call)}"
+            remedy = "is each call slow, or a loop endless?"
+        text = f"{self._name}: {over.text} {place}{f'; {remedy}' if over.kind == 'time' else ''}"
+        return Failure(over.kind, text, call=None if call is None else number)
 
-    def _failure(
-        self, told: dict[str, Any], call: Call | None, number: int | None = None
-    ) -> Failure:
+    def _failure(self, told: dict[str, Any], call: Call | None, number: int) -> Failure:
         """Return the failure for an exception or an invalid answer that the process reported."""
         kind: Any = str(told["kind"])  # a Kind
         text = shortened(one_line(told["text"]), _LONGEST_TEXT)
@@ -182,17 +165,8 @@ class FileStudent(ProgramStudent):
             text = f"it ends the program ({text}); {'a function is to return' if call else _MAIN}"
         elif text.startswith("EOFError: EOF when reading a line"):
             text += f"; input() finds nothing here: {'use the arguments' if call else _MAIN}"
-        return Failure(kind, f"{where}: {text}{called}", tuple(map(str, told["lines"])), number)
-
-    def _over(
-        self, over: ProgramOverError, place: str, endless: str, number: int | None = None
-    ) -> Failure:
-        """Return the failure for the end of the process."""
-        kind, text = told_over(over, self.limits, "its process")
-        if over.status == _MEMORY_STATUS:
-            kind, text = "memory", f"needs more than the memory limit of {self.limits.memory_mb} MB"
-        reason = f"; {endless}" if kind == "time" else ""
-        return Failure(kind, f"{self._name}: {text} {place}{reason}", call=number)
+        lines = tuple(map(str, told["lines"]))
+        return Failure(kind, f"{where}: {text}{called}", lines, number if call else None)
 
 
 @cache

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import contextlib
-import math
 import os
 import queue
+import shutil
 import signal
 import subprocess
 import sys
@@ -14,7 +14,6 @@ import threading
 import time
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal
 
 from lucida.app.checking.kinds.kind import text_of
 from lucida.app.checking.tasks import Call, Kind, Limits, Run
@@ -40,18 +39,13 @@ DISHONEST = (
     "Run strangers' programs in a container, or as root with --as USER."
 )
 
-_Why = Literal["time", "ended", "stopped", "length", "garbled"]
-
 
 class ProgramOverError(Exception):
-    """No more answers will come.
+    """No more answers will come. kind, text: as in Failure; the text follows the program's name."""
 
-    status: the exit status if the program ended by itself; None if it only closed its answers.
-    """
-
-    def __init__(self, why: _Why, status: int | None = None) -> None:
-        super().__init__(why)
-        self.why, self.status = why, status
+    def __init__(self, kind: Kind, text: str) -> None:
+        super().__init__(text)
+        self.kind, self.text = kind, text
 
 
 class StudentProgram:
@@ -107,32 +101,28 @@ class StudentProgram:
             line = self._lines.get(timeout=max(0.0, end_s - time.monotonic()))
         except queue.Empty:
             self.end()
-            raise ProgramOverError("time") from None
+            text = f"the time limit of {self._limits.seconds:g} s is over"
+            raise ProgramOverError("time", text) from None
         if line:
             return line.rstrip(b"\r\n")
         self._lines.put(line)  # for the next call
         with contextlib.suppress(subprocess.TimeoutExpired):
             self._process.wait(_ENDING_S)
-        status = self._process.poll()
+        how = _told_status(self._process.poll())
         self.end()
         if self.stopped or self._too_long:
-            raise ProgramOverError("stopped" if self.stopped else "length")
-        raise ProgramOverError("ended", status)
+            how = "was stopped" if self.stopped else "answered too much"
+        raise ProgramOverError("ended", f"it {how}")
 
     def output(self) -> str:
-        """Return what was printed since the last call, shortened in the middle."""
+        """Return what was printed since the last call; of much text, the end."""
         if self._printed.closed:
             return ""
-        size, most = os.fstat(self._printed.fileno()).st_size, self._limits.output
-        self._printed.seek(self._told)
-        left, self._told = size - self._told, size
-        if left <= most:
-            return self._printed.read(left).decode("utf-8", "replace")
-        first = self._printed.read(most // 2)
-        self._printed.seek(size - most // 2)
-        last = self._printed.read(most // 2)
-        parts = [part.decode("utf-8", "replace") for part in (first, last)]
-        return f"\n... {left - 2 * (most // 2):,} bytes left out ...\n".join(parts)
+        size, begin = os.fstat(self._printed.fileno()).st_size, self._told
+        self._told, left_out = size, max(0, size - begin - self._limits.output)
+        self._printed.seek(begin + left_out)
+        text = self._printed.read(size - begin - left_out).decode("utf-8", "replace")
+        return f"... {left_out:,} bytes left out ...\n{text}" if left_out else text
 
     def stop(self) -> None:
         """End the program, from any thread. `line` then raises ProgramOverError."""
@@ -182,14 +172,6 @@ class StudentProgram:
                 pipe.flush()
 
 
-def _cpu_seconds(seconds: float) -> int:
-    """Return a limit of CPU time that no run reaches before its time limit, with all processors.
-
-    FileStudent replaces a process whose runs took one time limit, so a process lasts at most two.
-    """
-    return math.ceil(min(seconds, 1e6) * max(2, os.cpu_count() or 1)) + 10
-
-
 class ProgramStudent:
     """Base class of students whose answers come from a program, one at a time.
 
@@ -224,11 +206,6 @@ class ProgramStudent:
         if program:
             program.stop()
 
-    def restart(self) -> None:
-        """Make the next run begin in a new process, which remembers no call."""
-        with self._turn:
-            self._end()
-
     def close(self) -> None:
         """End its process, and everything that it started."""
         self._closed = True
@@ -238,6 +215,9 @@ class ProgramStudent:
 
     def _begin(self, command: Sequence[str], folder: str, limits: Limits) -> StudentProgram:
         """Start the program. Raises LucidaError."""
+        if shutil.which(command[0]) is None:
+            remedy = "is it installed, executable, and on the PATH?"
+            raise LucidaError("", "there is no such program", remedy, command[0])
         with self._change:
             try:
                 self._program = StudentProgram(command, folder, limits, self._account)
@@ -261,7 +241,6 @@ def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Seque
         "ulimit -c 0",
         f"ulimit -f {_LARGEST_FILE >> 9}",  # blocks of 512 bytes
         f"ulimit -d {limits.memory_mb << 10}",  # KiB; not what is only reserved, as by Node.js
-        f"ulimit -t {_cpu_seconds(limits.seconds)}",  # ends it even if this process was killed
     ]
     if has_account:  # otherwise, all processes of this process's user would count
         orders.append(f"ulimit -u {_MOST_PROCESSES} || ulimit -p {_MOST_PROCESSES}")  # bash, dash
@@ -279,18 +258,6 @@ def told_call(call: Call, longest: int = 80) -> str:
         for name, value in ((arguments(n, call.notation), v) for n, v in call.arguments)
     )
     return one_line(f"{call.function}({', '.join(given)})")
-
-
-def told_over(over: ProgramOverError, limits: Limits, it: str) -> tuple[Kind, str]:
-    """Return the kind of failure, and what ended a program. it: "it" or "its process"."""
-    if over.why == "time":
-        return "time", f"the time limit of {limits.seconds:g} s is over"
-    ends = {
-        "stopped": "was stopped",
-        "length": "answered too much",
-        "garbled": "wrote into a file of ours: one that it has not opened itself",
-    }
-    return "ended", f"{it} {ends.get(over.why) or _told_status(over.status)}"
 
 
 def _told_status(status: int | None) -> str:

@@ -2,13 +2,12 @@
 
 file.py passes this text to `python -c`, perhaps of another installation (3.9 or newer), so it
 imports the standard library alone. Requests are lines of JSON on standard input: the file, then
-lists of calls. Each answer is a line that begins with a letter: i, the contents of the file; a, a
-call's value; f, a failure.
+lists of calls. Each answer is a line that begins with a letter: a, the names of the file's
+functions, or a call's value; f, a failure.
 """
 
 import _thread
 import contextlib
-import functools
 import json
 import linecache
 import numbers
@@ -21,8 +20,6 @@ import types
 
 _LONGEST_LINE = 300
 _LAST_FRAMES = 12  # of a long traceback
-_MOST_FILES = 32
-_MEMORY_STATUS = 86  # exit status: no memory left to report that
 _NAMED_PARTS = (("origin", "direction"), ("u", "v", "w"), ("x", "y", "z", "w"), ("x", "y", "z"))
 _LETTERS = {"e": "eye", "d": "distance"}  # the lecture's, for these fields
 
@@ -30,19 +27,12 @@ _LETTERS = {"e": "eye", "d": "distance"}  # the lecture's, for these fields
 def main():
     """Serve the other end until it closes its pipe."""
     channel = Channel()
-    try:
-        student = StudentFile(channel.next())
-        try:
-            student.load()
-            channel.send("i", {"functions": student.functions(), "files": student.files()})
-        except BaseException as error:
-            channel.send("f", {**student.failure(error), "files": student.files(all_of=True)})
-        while True:
-            for name, arguments in channel.next():
-                given = [made(value, word) for word, value in arguments]
-                channel.send(*student.called(name, given))
-    except MemoryError:
-        os._exit(_MEMORY_STATUS)
+    student = StudentFile(channel.next())
+    channel.send(*student.answer(student.load))
+    while True:
+        for name, arguments in channel.next():
+            given = [made(value) for _, value in arguments]
+            channel.send(*student.answer(student.called, name, given))
 
 
 class Channel:
@@ -94,7 +84,7 @@ class StudentFile:
         self._module.__file__ = self._path
 
     def load(self):
-        """Run the file. Raises whatever the file raises."""
+        """Run the file. Return the names of all callables. Raises whatever the file raises."""
         sys.path.insert(0, self._folder)
         sys.argv[:] = [self._path]
         code = compile(self._source, self._path, "exec", dont_inherit=True)
@@ -103,43 +93,25 @@ class StudentFile:
         linecache.cache[self._path] = (len(text), None, text.splitlines(True), self._path)
         sys.modules[self._module.__name__] = self._module
         exec(code, self._module.__dict__)
-
-    def functions(self):
-        """Return the names of all callables."""
         values = self._module.__dict__.items()
         return [name for name, value in values if callable(value) and not name.startswith("__")]
 
-    def files(self, all_of=False):
-        """Return the paths of the student's imported modules; all_of: of all modules beside the
-        file, because one of them may have prevented its import.
-        """
-        found = []
-        for module in [*sys.modules.values()]:
-            with contextlib.suppress(Exception):  # may hold any object
-                found.append(module.__file__)
-        if all_of:
-            with contextlib.suppress(OSError):
-                found += [os.path.join(self._folder, name) for name in os.listdir(self._folder)]
-        inside = self._folder + os.sep
-        own = [
-            path
-            for path in dict.fromkeys(found)
-            if isinstance(path, str) and path.startswith(inside) and path.endswith(".py")
-        ]
-        return [path for path in own if path != self._path][:_MOST_FILES]
-
     def called(self, name, arguments):
-        """Run a call. Return the letter of its result, and the result as JSON."""
+        """Return what a function returns. Raises whatever it raises."""
+        return self._module.__dict__[name](*arguments)
+
+    def answer(self, run, *arguments):
+        """Run a function. Return the letter of its result, and the result as JSON."""
         try:
-            answer = self._module.__dict__[name](*arguments)
+            value = run(*arguments)
             try:
-                return "a", encode(answer)
+                return "a", encode(value)
             except Exception as error:
                 if isinstance(error, MemoryError) or self._where(error):
                     raise
-            text = f"something of type {type(answer).__name__}"
+            text = f"something of type {type(value).__name__}"
             with contextlib.suppress(Exception):  # the student's __repr__ may fail
-                text = f"{repr(answer)[:_LONGEST_LINE]} of type {type(answer).__name__}"
+                text = f"{repr(value)[:_LONGEST_LINE]} of type {type(value).__name__}"
             return "f", {"kind": "answer", "text": text, "where": "", "lines": []}
         except BaseException as error:
             return "f", self.failure(error)
@@ -192,7 +164,7 @@ class Values(dict):
             return self[field]
         letters = {word: letter for letter, word in _LETTERS.items()}
         has = ", ".join(f"{letters[one]} or {one}" if one in letters else one for one in self)
-        raise AttributeError(f"{type(self).__name__} has no {name!r}; it has: {has}")
+        raise AttributeError(f"there is no {name!r} in it; it has: {has}")
 
 
 def _with(operation):
@@ -232,21 +204,15 @@ class Vector(tuple):
         return -1 * self
 
 
-@functools.lru_cache(None)
-def kind_of(name):
-    return type(name.title().replace("_", "") or "Values", (Values,), {})
-
-
-def made(value, name):
+def made(value):
     """Return an argument: objects for dicts, and vectors or tuples for lists."""
     if isinstance(value, dict):
-        return kind_of(name)(**{key: made(part, key) for key, part in value.items()})
+        return Values({key: made(part) for key, part in value.items()})
     if not isinstance(value, list):
         return value
     if all(isinstance(part, numbers.Number) for part in value):
         return Vector(value)
-    one = name[:-1] if name.endswith("s") else name
-    return tuple([made(part, one) for part in value])
+    return tuple([made(part) for part in value])
 
 
 def plain(value):

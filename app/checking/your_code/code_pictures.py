@@ -1,7 +1,6 @@
-"""The pictures of an answer on the screen: the given one, the correct one, their difference.
+"""The pictures of an answer on the screen: the given one and the correct one.
 
-Includes the thread that makes them, their textures, and the clicked pixel. Light is linear,
-(H, W, 3); pictures are uint8 (H, W, 3), sRGB.
+Includes the thread that makes them, their textures, and the clicked pixel.
 """
 
 from __future__ import annotations
@@ -14,9 +13,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 from numpy.typing import NDArray
 
-from lucida.app.images.changed_pixels import changed_pixels, difference_picture
 from lucida.app.images.ray_pictures import RayPainter, RayPictures
-from lucida.app.instruments.mistakes.model import told_difference
 from lucida.app.instruments.outside.paint import role_color
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
@@ -32,47 +29,20 @@ from lucida.renderer.system.memo import Memo
 from .model import CodeRays, CodeReport, canvas_pixel
 
 Bytes = NDArray[np.uint8]
-SAME_COLOR = (70, 110, 160)  # in the difference: another ray that happens to have the same colour
-SAME = "the same colours"  # though rays are wrong
-PICTURES = ("given", "right", "difference")
+PICTURES = ("given", "right")
 
 
 @dataclass(frozen=True, eq=False)
 class CodePictures:
-    """Pictures of an answer."""
+    """Pictures of an answer: uint8 (H, W, 3), sRGB. Missing pixels are black."""
 
     given: Bytes
     right: Bytes
-    difference: Bytes
-    told: str  # the size of the difference, in words
 
     @property
     def size(self) -> tuple[int, int]:
         height, width = self.right.shape[:2]
         return width, height
-
-
-def compared(
-    given: NDArray[np.float32],
-    right: NDArray[np.float32],
-    came: NDArray[np.bool_],
-    wrong: NDArray[np.bool_],
-    exposure_ev: float = 0.0,
-) -> CodePictures:
-    """Return the pictures of two images.
-
-    came: the pixels that have an answer, bool (H, W).
-    wrong: the wrong ones, whatever their colour.
-    """
-    shown = to_srgb8(np.where(came[..., None], given, 0), exposure_ev)
-    wanted = to_srgb8(right, exposure_ev)
-    changed = changed_pixels(wanted, shown) & came
-    difference = difference_picture(wanted, changed)
-    difference[wrong & came & ~changed] = SAME_COLOR
-    told = told_difference(changed) if changed.any() else "none" if not wrong.any() else SAME
-    if not came.all():
-        told = f"{np.count_nonzero(~came)} of {came.size} missing"
-    return CodePictures(shown, wanted, difference, told)
 
 
 class PicturesShown:
@@ -135,11 +105,10 @@ class PicturesShown:
             return
         is_of_rays = rays is not None and pictures.size == rays.size  # not of those before
         pixel, color = marked if is_of_rays else None, role_color("other")
-        given, right, difference = map(self._uploads.get, PICTURES)
+        given, right = map(self._uploads.get, PICTURES)
         grid = [
             GridPicture("given", "yours", given, frame=color, pixel=pixel),
             GridPicture("right", "correct", right, pixel=pixel),
-            GridPicture("difference", "difference", difference, pictures.told, pixel=pixel),
         ]
         try:
             clicked = picture_grid(grid, pictures.size, room, host.fonts)
@@ -173,7 +142,8 @@ def _painted(painter: RayPainter, rays: CodeRays, exposure_ev: float) -> CodePic
         painter.picture(one[..., 0, :], one[..., 1, :], rays.camera.t_range)
         for one in (rays.given, rays.right)
     )
-    return compared(given, right, rays.came, rays.wrong, exposure_ev)
+    given = np.where(rays.came[..., None], given, 0)
+    return CodePictures(to_srgb8(given, exposure_ev), to_srgb8(right, exposure_ev))
 
 
 def _upload(uploads: Uploads, pictures: CodePictures | None) -> None:

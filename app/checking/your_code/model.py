@@ -23,7 +23,8 @@ from lucida.renderer.camera.image_plane import Size
 
 Floats = NDArray[np.float64]
 
-RAY = "viewing-ray"  # the kind of functions that make pictures of a camera
+RAY = "viewing-ray"  # the kind of task whose function makes pictures of a camera
+RAY_TASK = next(task for task in BUILTIN if task.kind == RAY)
 EXACT = 1e-6  # pixels: of a corner between four, the upper left one
 ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
 
@@ -50,15 +51,6 @@ class CodeRays:
     def came(self) -> NDArray[np.bool_]:
         """The pixels that have a ray, bool (H, W)."""
         return np.asarray(np.isfinite(self.given).all(axis=(2, 3)))
-
-
-def chosen_of(tasks: Sequence[CheckTask], name: str) -> CheckTask | None:
-    """Return the task with that name; without one, the first that makes a picture of the camera, or
-    else the first.
-    """
-    wished = (task for task in tasks if task.name == name)
-    pictured = (task for task in tasks if task.kind == RAY)
-    return next(wished, None) or next(pictured, None) or next(iter(tasks), None)
 
 
 def ray_task_for(camera: Camera) -> CheckTask:
@@ -100,23 +92,15 @@ def canvas_pixel(
 
 
 @dataclass(frozen=True)
-class CodeContent:
-    """One version of a file."""
-
-    path: str
-    version: int = 1
-
-
-@dataclass(frozen=True)
 class CodeQuestion:
     """A question to a file.
 
-    task: the name of the selected one.
-    camera, size: for the canvas.
+    version: of the file; another one after each save.
+    camera, size: for the pictures.
     """
 
-    content: CodeContent
-    task: str
+    path: str
+    version: int
     camera: Camera
     size: Size
 
@@ -129,33 +113,26 @@ class CodeQuestion:
 class CodeReport:
     """The findings on a file.
 
-    tasks: those whose functions the file has.
-    chosen: the selected one.
-    rays: for the window's camera, None if the selected task makes none.
-    results: of the tasks that have been tried, by name.
-    failure: the reason why the file answers nothing at all.
+    rays: for the window's camera; None if the file answers nothing.
+    results: of the tasks that have been tried with other cameras, by name.
+    failure: the reason why the file answers nothing, or not all.
     output: the text that it printed.
-    seconds: the duration of the newest run.
     """
 
     question: CodeQuestion
-    tasks: tuple[CheckTask, ...] = ()
-    chosen: CheckTask | None = None
     rays: CodeRays | None = None
     results: Mapping[str, TaskResult] = field(default_factory=dict)
     failure: Failure | None = None
     output: str = ""
-    seconds: float = 0.0
 
     @property
     def halted(self) -> bool:
         """True if the file should not run again by itself: it would only take as long again."""
-        failure = self.failure
-        if failure is None and self.rays is not None:
-            failure = self.rays.result.failure
-        return failure is not None and failure.kind in ENDLESS
+        return self.failure is not None and self.failure.kind in ENDLESS
 
     @property
     def untried(self) -> CheckTask | None:
-        """The next task to try with other cases; None if there is none."""
-        return next((task for task in self.tasks if task.name not in self.results), None)
+        """The task to try with other cameras; None if there is none, or it has been tried."""
+        if self.rays is None or self.failure or self.rays.task.name in self.results:
+            return None
+        return self.rays.task

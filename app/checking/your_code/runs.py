@@ -1,7 +1,7 @@
-"""Runs a student's file in the background: for the window's camera, then for all of its tasks.
+"""Runs a student's file in the background: for the window's camera, then for others.
 
-The newest question wins. An overtaken run is ended if it takes long. The slow work, the tasks,
-waits until the camera rests.
+The newest question wins. An overtaken run is ended if it takes long. Other cameras are tried once
+the window's has been.
 """
 
 from __future__ import annotations
@@ -12,28 +12,17 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 
-from lucida.app.checking.checked import checked, failed
+from lucida.app.checking.checked import checked
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.running.file import FileStudent, NotRunnableError
-from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import CheckTask, Failure, Limits
 from lucida.app.ui.background import Background, Outcome
 from lucida.renderer.system.errors import LucidaError, describe
 
-from .model import (
-    RAY,
-    CodeContent,
-    CodeQuestion,
-    CodeReport,
-    cases_for,
-    chosen_of,
-    ray_task_for,
-    rays_of,
-)
+from .model import RAY, CodeQuestion, CodeReport, cases_for, ray_task_for, rays_of
 
 LIMITS = Limits(seconds=10.0)
 OVERTAKEN_S = 0.3  # a run of an older question is ended if it takes longer
-REST_S = 0.25  # the camera rests; a file whose run took longer is not run before
 
 
 @dataclass(frozen=True)
@@ -54,18 +43,12 @@ class CodeRuns:
     def __init__(self, make: Callable[[Path, Limits], FileStudent] = FileStudent) -> None:
         self._make = make
         self._background: Background[CodeReport] = Background("lucida-your-code")
-        self._content: CodeContent | None = None  # of the student
         self._student: FileStudent | None = None
+        self._file: tuple[str, int] | None = None  # the student's path and version
         self._work: _Work | None = None
         self._newest: CodeQuestion | None = None
-        self._since_s = 0.0  # of the newest question
         self._stopped = False  # by the user
         self.report: CodeReport | None = None
-
-    @property
-    def files(self) -> tuple[str, ...]:
-        """The modules that the file imported, or failed to import, when it was last read."""
-        return self._student.files if self._student is not None else ()
 
     @property
     def busy(self) -> bool:
@@ -81,19 +64,17 @@ class CodeRuns:
         once a frame.
 
         A file that has run endlessly is not run again for another camera, but only for something
-        that the user asks for here: another version, task, or size.
+        that the user asks for here: another version or size.
         """
         self.poll()
-        if question != self._newest:
-            self._newest, self._since_s = question, time.monotonic()
-        work = self._work
+        self._newest, work = question, self._work
         if work is not None:
             is_late = work.question != question and self.running_s > OVERTAKEN_S
             if is_late:
                 self._work = replace(work, question=None)
             if self._student is not None and (self._stopped or is_late):
                 self._student.stop()
-        elif (wanted := self._wanted()) is not None and self._may_begin():
+        elif (wanted := self._wanted()) is not None:
             self._begin(question, wanted)
 
     def poll(self) -> None:
@@ -103,9 +84,7 @@ class CodeRuns:
             return
         work, self._work = self._work, None
         if work.question is not None:
-            report = _report(work.question, outcome)
-            seconds = report.seconds or time.monotonic() - work.begun_s
-            self.report = replace(report, seconds=seconds)
+            self.report = _report(work.question, outcome)
 
     def stop(self) -> None:
         """End the current run. Its report says so, and nothing else is tried."""
@@ -115,7 +94,7 @@ class CodeRuns:
         """Discard all results and end the process, because there is no file any more, or to start
         over.
         """
-        self._newest = self.report = self._content = None
+        self._newest = self.report = self._file = None
         if self._work is not None:
             self._work = replace(self._work, question=None)
         if self._student is not None:
@@ -132,26 +111,18 @@ class CodeRuns:
         if question is None:
             return None
         if report is not None and report.question == question:
-            task = None if self._stopped else report.untried
+            task = report.untried
             return None if task is None else partial(_tried, report=report, task=task)
         if report is not None and report.halted and question.differs_in_camera(report.question):
             return None
         return partial(_answered, question=question, before=report)
 
-    def _may_begin(self) -> bool:
-        """Return True if the camera rests, or the file is quick enough to follow it."""
-        report, question = self.report, self._newest
-        assert question is not None
-        is_quick = report is None or report.seconds < REST_S
-        is_other = report is None or report.question != question
-        return (is_quick and is_other) or time.monotonic() - self._since_s >= REST_S
-
     def _begin(self, question: CodeQuestion, run: Callable[[FileStudent], CodeReport]) -> None:
-        if self._student is None or self._content != question.content:
+        file = question.path, question.version
+        if self._student is None or self._file != file:
             if self._student is not None:
                 self._student.close()
-            self._student = self._make(Path(question.content.path), LIMITS)
-            self._content = question.content
+            self._student, self._file = self._make(Path(question.path), LIMITS), file
         if self.report is None or self.report.question != question:
             self._stopped = False
         student, self._work = self._student, _Work(question, time.monotonic())
@@ -176,28 +147,18 @@ def _answered(
     student: FileStudent, question: CodeQuestion, before: CodeReport | None
 ) -> CodeReport:
     """Return the file's answer for the camera. Runs on a thread. Raises LucidaError."""
-    functions = student.functions()
-    tasks = tuple(task for task in BUILTIN if task.function in functions)
-    chosen = chosen_of(tasks, question.task)
-    is_known = before is not None and before.question.content == question.content
-    results = before.results if before is not None and is_known else {}
-    report = CodeReport(question, tasks, chosen, results=results)
-    if chosen is None or chosen.kind != RAY:
-        return report
     task = ray_task_for(question.camera)
+    if task.function not in student.functions():
+        problem = f"it has no function {task.function}; `lucida check` tries the other ones"
+        return CodeReport(question, failure=Failure("missing", problem))
     cases = cases_for(task, question.camera, question.size)
     run = student.call(KINDS[RAY].calls(task, cases))
-    return replace(report, rays=rays_of(task, question.size, cases, run), output=run.output)
+    rays = rays_of(task, question.size, cases, run)
+    is_known = before is not None and before.question.version == question.version
+    results = before.results if before is not None and is_known else {}
+    return CodeReport(question, rays, results, rays.result.failure, run.output)
 
 
 def _tried(student: FileStudent, report: CodeReport, task: CheckTask) -> CodeReport:
-    """Return the report with the result of a task, which is known if the function runs endlessly.
-    Runs on a thread.
-    """
-    rays = report.rays
-    if rays is not None and report.halted and rays.task.function == task.function:
-        assert rays.result.failure is not None
-        result = failed(task, rays.result.failure)
-    else:
-        result = checked(student, task)
-    return replace(report, results={**report.results, task.name: result})
+    """Return the report with the result of a task. Runs on a thread."""
+    return replace(report, results={**report.results, task.name: checked(student, task)})

@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 
 import moderngl
@@ -29,7 +30,7 @@ from lucida.app.ui import layout, theme
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
 from lucida.app.ui.messages import wrapped
-from lucida.app.ui.watching import FilesWatch
+from lucida.app.ui.watching import MOST, FilesWatch
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.file_dependencies import stamp
@@ -37,14 +38,7 @@ from lucida.renderer.system.memo import Memo
 
 from . import panel
 from .code_pictures import CodePictures, PicturesShown, marked_pixel
-from .editor import open_in_editor
-from .model import (
-    RAY,
-    CodeContent,
-    CodeQuestion,
-    CodeRays,
-    CodeReport,
-)
+from .model import RAY, CodeQuestion, CodeRays, CodeReport
 from .panel import CodeWish
 from .runs import CodeRuns
 from .words import ToldLine, told_of
@@ -64,8 +58,8 @@ class YourCode(Instrument):
         self.runs = CodeRuns()
         self._pictures: PicturesShown | None = None
         self._watch = FilesWatch({})
-        self._watched: tuple[str, ...] = ()  # the file, then its modules
-        self._version = 0  # of the file and its modules
+        self._watched = ""  # the file; the Python files beside it are watched, too
+        self._version = 0  # of these files
         self._agreed: set[str] = set()  # files that the user has opened in this window
         self._written: list[str] = []  # files to begin with that have been written
         self._items = Memo(_outside_items)
@@ -88,7 +82,7 @@ class YourCode(Instrument):
         """Open a file for the user. It is run now, and whenever it is saved."""
         self._agreed.add(path)
         self._version += 1
-        options = replace(host.state.options.your_code, file=stored(path), task="")
+        options = replace(host.state.options.your_code, file=stored(path))
         if host.state.options.your_code.file != options.file:
             host.change(host.state.with_options(options))
         host.show_in(YOUR_CODE, layout.LOOPS)
@@ -140,7 +134,7 @@ class YourCode(Instrument):
         self.runs.poll()
         if self.runs.report is not None:
             self.runs.forget()
-        self.told, self._watched = [], ()
+        self.told, self._watched = [], ""
         self._outside.show(YOUR_CODE, ())
 
     def _may_run(self, host: Host, path: str) -> bool:
@@ -150,16 +144,13 @@ class YourCode(Instrument):
         return path in self._agreed or Path(path) in host.files.recent.entries
 
     def _saved_version(self, host: Host, path: str) -> int:
-        """Return the number of the file's version: another one after it, or a module that it
-        needs, was saved.
+        """Return the number of the file's version: another one after it, or a Python file beside
+        it, was saved.
         """
-        watched = path, *self.runs.files
-        if watched[0] not in self._watched[:1]:
-            self._watch, self._version = FilesWatch({}), self._version + 1
-        if watched != self._watched:
-            self._watched = watched
-            self._watch.follow({Path(name): stamp(Path(name)) for name in watched})
-        self._version += self._watch.changed(time.monotonic())
+        if self._watch.changed(time.monotonic()) or path != self._watched:
+            self._watched, self._version = path, self._version + 1
+            beside = islice(Path(path).parent.glob("*.py"), MOST)
+            self._watch.follow({name: stamp(name) for name in (Path(path), *beside)})
         if self._watch.waiting:
             host.animate()
         return self._version
@@ -168,13 +159,12 @@ class YourCode(Instrument):
         assert self._pictures is not None
         runs, options = self.runs, host.state.options.your_code
         version = self._saved_version(host, path)
-        content = CodeContent(path, version)
         camera = host.state.view.for_size(options.canvas)
-        runs.follow(CodeQuestion(content, options.task, camera, options.canvas))
+        runs.follow(CodeQuestion(path, version, camera, options.canvas))
         if runs.busy:
             host.animate()
         report = runs.report
-        if report is not None and report.question.content.path != path:
+        if report is not None and report.question.path != path:
             report = None
         wish, canvas = panel.head(Path(path), options, runs, host.fonts)
         if canvas != options.canvas:
@@ -182,20 +172,12 @@ class YourCode(Instrument):
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
-        clicked = panel.tasks(report, report.chosen)
-        if clicked is not None:
-            host.edit(replace(host.options.your_code, task=clicked.name))
         self._pictures.follow(host, report)
         marked = marked_pixel(host, report)
-        room = imgui.get_content_region_avail()
-        for_pictures, for_words, beside = panel.rooms(room, self._pictures.expected)
         if self._pictures.expected:
-            self._pictures.draw(host, report, for_pictures, marked)
-        if beside:
-            imgui.same_line()
+            self._pictures.draw(host, report, panel.pictures_room(), marked)
         self.told = self._words(report, marked)
-        left = imgui.get_content_region_avail()  # pictures may need less than they may have
-        title = panel.words(self.told, for_words if beside else left, host.fonts)
+        title = panel.words(self.told, host.fonts)
         if title:
             host.view(LectureView).read_again(host, title)
         self._show_outside(host, report, marked)
@@ -211,7 +193,7 @@ class YourCode(Instrument):
         first = f"pixel {host.state.options.indexing.text((0, 0))}"
         items = self._items(rays, marked, end, first)
         self._outside.show(YOUR_CODE, items)
-        place = report.question.content.path, rays.task.name
+        place = report.question.path, rays.task.name
         if place != self._opened_for:  # once: the user may close it again
             self._opened_for = place
             host.show(self._outside.name)
@@ -222,7 +204,7 @@ class YourCode(Instrument):
         """Draw a file that a lecture has named, which the user may read and run."""
         options = host.state.options.your_code
         wish, _ = panel.head(Path(path), options, None, host.fonts)
-        wrapped(panel.TRUST)
+        wrapped(panel.TRUST.format(one_line(path)))
         if imgui.button("Run it"):
             self._agree(host, path)
         return wish
@@ -242,8 +224,6 @@ class YourCode(Instrument):
                 ("Python files", ".py"),
                 self.write_starter,
             )
-        elif wish == "edit" and path and not open_in_editor(path):
-            host.files.message = f"No editor was found. The file is {one_line(path)}."
         elif wish == "run" and path and self._may_run(host, path):
             self.runs.forget()
             host.animate()
@@ -261,7 +241,7 @@ class YourCode(Instrument):
     def _open_written(self, host: Host) -> None:
         path = str(Path(self._written.pop()).absolute())
         self._agree(host, path)
-        host.edit(replace(host.options.your_code, file=stored(path), task=""))
+        host.edit(replace(host.options.your_code, file=stored(path)))
 
 
 def _outside_items(rays: CodeRays, marked: Pixel | None, end: float, first: str) -> list[Item]:

@@ -9,19 +9,17 @@ from typing import Literal
 
 import numpy as np
 
-from lucida.app.checking.checked import TaskResult
+from lucida.app.checking.checked import TaskResult, failure_lines
 from lucida.app.checking.kinds.kind import text_of
 from lucida.app.checking.mistakes.diagnosis import READ
-from lucida.app.checking.reports import VERDICTS
-from lucida.app.checking.task_file import BUILTIN
-from lucida.app.checking.tasks import CheckTask
+from lucida.app.checking.tasks import Failure
 from lucida.app.state.options.shared import Pixel
-from lucida.renderer.system.errors import visible
+from lucida.renderer.system.errors import one_line, visible
 
-from .model import CodeRays, CodeReport
+from .model import RAY_TASK, CodeRays, CodeReport
 
 ToldRole = Literal["good", "bad", "text", "code", "dim", "read"]
-HALTED = "It is not run again by itself"
+HALTED = "It is not run again by itself: choose fewer pixels, save the file, or press Run."
 OUTPUT_LINES = 40  # last lines of the printed output
 
 
@@ -39,79 +37,44 @@ class ToldLine:
 
 def told_of(report: CodeReport, pixel: Pixel | None) -> list[ToldLine]:
     """Return all findings, the most helpful first. pixel: the marked one, in the pictures."""
-    lines = [*_of_file(report)] or [*_of_task(report, pixel)]
-    lines = [line for line in lines if not _is_marks(line)]
-    return [*lines, *_of_output(report)]
-
-
-def _is_marks(line: ToldLine) -> bool:
-    """Return True for a traceback's line of ^^^ alone: wrapped text would separate it from its
-    code.
-    """
-    return line.role == "code" and re.fullmatch(r" *[~^][ ~^]*", line.text) is not None
-
-
-def verdict_of(report: CodeReport, task: CheckTask) -> str:
-    """Return correct, wrong or failed; "empty" if the function is still a starter, or "" while it
-    is unknown.
-    """
-    result = report.results.get(task.name)
-    if result is None:
-        return ""
-    return "empty" if _is_empty(result) else VERDICTS.get(result.status, result.status)
-
-
-def _is_empty(result: TaskResult) -> bool:
-    """Return True if the function returns what a starter file does."""
-    failure = result.failure
-    return failure is not None and failure.kind == "answer" and "returned None" in failure.text
-
-
-def _of_file(report: CodeReport) -> Iterator[ToldLine]:
-    """Yield the reason why the file answers nothing; no lines if it answers."""
     if report.failure is not None:
-        yield ToldLine("bad", report.failure.text)
-        yield from (ToldLine("code", line) for line in report.failure.traceback)
+        lines = [*_of_failure(report.failure)]
         if report.halted:
-            yield ToldLine("dim", f"{HALTED}: save the file, or press Run.")
-    elif report.chosen is None:
-        names = ", ".join(dict.fromkeys(task.function for task in BUILTIN))
-        yield ToldLine("bad", f"The file has none of the functions that are asked for: {names}.")
+            lines.append(ToldLine("dim", HALTED))
+    else:
+        assert report.rays is not None
+        lines = [*_of_rays(report.rays, report.results.get(report.rays.task.name))]
+    if report.rays is not None and pixel is not None and report.rays.came[pixel]:
+        lines += _of_pixel(report.rays, pixel)
+    return [*lines, *_of_output(report.output)]
 
 
-def _of_task(report: CodeReport, pixel: Pixel | None) -> Iterator[ToldLine]:
-    """Yield what the pictures show, and why; then the result of other cases."""
-    chosen, rays = report.chosen, report.rays
-    assert chosen is not None
-    result = report.results.get(chosen.name)
-    if rays is None:
-        yield from _of_result(chosen, result)
-    elif rays.result.failure is not None:
-        yield from _of_failure(rays.result)
-        if report.halted:
-            yield ToldLine("dim", f"{HALTED}: choose fewer pixels, save the file, or press Run.")
-    elif rays.result.status == "wrong":
+def _of_failure(failure: Failure) -> Iterator[ToldLine]:
+    if failure.kind == "answer" and "returned None" in failure.text:  # as a starter file does
+        yield ToldLine("text", f"{RAY_TASK.function} returns nothing yet. {RAY_TASK.text}")
+        return
+    yield ToldLine("bad", one_line(failure.text))
+    for line in failure_lines(failure):
+        if not re.fullmatch(r" *[~^][ ~^]*", line):  # wrapped text would separate it from its code
+            yield ToldLine("code", line)
+
+
+def _of_rays(rays: CodeRays, tried: TaskResult | None) -> Iterator[ToldLine]:
+    """Yield what the pictures show; then why, or the result of other cameras."""
+    is_wrong = rays.result.status == "wrong"
+    if is_wrong:
         yield ToldLine("bad", f"{rays.wrong.sum()} of {rays.wrong.size} rays are wrong.")
-        tried = report.results.get(rays.task.name)
-        if tried is None:
-            yield ToldLine("dim", "looking for the reason ...")
-        elif tried.diagnosis is not None:
-            yield from map(_explained, tried.diagnosis.sentences)
     else:
         yield ToldLine("good", "Every ray is correct.")
-        if result is not None and result.status != "right":
-            yield ToldLine("bad", "But not for every camera:")
-        yield from _of_result(chosen, result)
-    if rays is not None and pixel is not None and bool(rays.came[pixel]):
-        yield from _of_pixel(rays, pixel)
-
-
-def _of_failure(result: TaskResult) -> Iterator[ToldLine]:
-    if _is_empty(result):
-        yield ToldLine("text", f"{result.task.function} returns nothing yet. {result.task.text}")
-        return
-    for number, line in enumerate(result.lines):
-        yield ToldLine("code" if number else "bad", line)
+    if tried is None:
+        yield ToldLine("dim", f"{'looking for the reason' if is_wrong else 'trying others'} ...")
+    elif is_wrong:
+        yield from map(_explained, tried.diagnosis.sentences if tried.diagnosis else ())
+    elif tried.status == "right":
+        yield ToldLine("good", f"{tried.task.name}: correct in all of {tried.cases} cases.")
+    else:
+        yield ToldLine("bad", "But not for every camera:")
+        yield from map(_explained, tried.lines)
 
 
 def _of_pixel(rays: CodeRays, pixel: Pixel) -> Iterator[ToldLine]:
@@ -121,27 +84,11 @@ def _of_pixel(rays: CodeRays, pixel: Pixel) -> Iterator[ToldLine]:
         yield ToldLine("code", f"{name}  {origin} + t {direction}")
 
 
-def _of_result(task: CheckTask, result: TaskResult | None) -> Iterator[ToldLine]:
-    if result is None:
-        yield ToldLine("dim", f"{task.name} is being tried with other cases ...")
-    elif result.failure is not None:
-        yield from _of_failure(result)
-    elif result.status == "right":
-        yield ToldLine("good", f"{task.name}: correct in all of {result.cases} cases.")
-    else:
-        yield ToldLine("bad", f"{task.function} is wrong.")
-        yield from map(_explained, result.lines)
-
-
 def _explained(sentence: str) -> ToldLine:
     return ToldLine("read" if sentence.startswith(READ) else "text", sentence)
 
 
-def _of_output(report: CodeReport) -> Iterator[ToldLine]:
-    output = report.output
-    if not output and report.chosen is not None and report.rays is None:
-        result = report.results.get(report.chosen.name)
-        output = result.output if result is not None else ""
+def _of_output(output: str) -> Iterator[ToldLine]:
     printed = output.rstrip().splitlines()
     if printed:
         cut = f", the last {OUTPUT_LINES} of {len(printed)} lines"

@@ -17,7 +17,6 @@ from lucida.app.instruments.outside.gizmo import (
     gizmo,
     let_go,
     manipulate,
-    write,
 )
 from lucida.app.instruments.outside.tint import AXES, HELD
 from lucida.app.ui import palettes, theme
@@ -94,7 +93,6 @@ class Handles:
         scene: Scene,
         items: tuple[Item, ...],
         reach: float,
-        fonts: theme.Fonts,
     ) -> Scene:
         """Draw the handles of some items into the current window. Return the scene as they have
         moved it. reach: of the scene.
@@ -133,7 +131,8 @@ class Handles:
         if found.moved is not None:
             scene, drag = self._moved(drag, scene, found.moved[:3, 3])
         self._drag = drag
-        write(self.problem, found.clip_from_world, drag.place, shown.origin, shown.extent, fonts)
+        if self.problem:
+            imgui.set_tooltip(self.problem)
         return scene
 
     def _moved(self, drag: _HandleDrag, scene: Scene, place: Floats) -> tuple[Scene, _HandleDrag]:

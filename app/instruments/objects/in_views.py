@@ -62,7 +62,7 @@ class InViews:
         self._draw_outlines(host, shown)  # no further than what the image shows
         draw.pop_clip_rect()
         items = unlocked(state) if state.options.objects.handle == "move" else ()
-        scene = self.handles.draw(shown, state.scene, items, host.focus.reach, host.fonts)
+        scene = self.handles.draw(shown, state.scene, items, host.focus.reach)
         if scene is not state.scene:
             host.apply(replace(host.state, scene=scene), self.handles.gesture)
         if self.handles.dragging:

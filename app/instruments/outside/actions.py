@@ -57,7 +57,6 @@ OUTSIDE = (
     ),
     _handles("move eye", "move", "handles that move the eye of the camera", "G"),
     _handles("turn basis", "turn", "handles that turn the basis of the camera", "T"),
-    _handles("move plane", "distance", "a handle that moves the image plane: the distance d"),
     _handles("turn up", "up", "handles that turn the vector up, which makes the basis"),
     Action(
         MENU,

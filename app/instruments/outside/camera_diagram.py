@@ -31,14 +31,14 @@ from .frustum import (
     MOST_GRID_LINES,
     border,
     grid,
-    has_plane,
     image_point,
+    meets_plane,
     on_ray,
     plane_corners,
     plane_parameter,
     point_at,
 )
-from .lens_diagram import ideal_border, image_sphere, lens_pixel
+from .lens_diagram import ideal_border, lens_pixel
 from .pixel_drawing import pixel_numbers, pixel_square
 from .ray_drawing import half_line, meetings, rays_to
 from .simple_camera import simple_camera
@@ -61,7 +61,6 @@ class Content:
     base: the number of the first row and column.
     number_step: see pixel_numbers(); None if rows and columns are not numbered.
     meetings: the t of all points where the marked pixel's line meets objects.
-    pointed: the t under the mouse.
     names_t: True to write the t of the marked pixel's hit.
     arrow: the length of the basis's arrows, in lengths of its vectors.
     """
@@ -76,7 +75,6 @@ class Content:
     base: int = 1
     number_step: int | None = None
     meetings: tuple[float, ...] = ()
-    pointed: float | None = None
     names_t: bool = True
     arrow: float = 1.0
 
@@ -95,7 +93,7 @@ def diagram(content: Content) -> list[Item]:
     if marked is not None and options.ray:
         pixel = marked.pixel
         if options.half_line:
-            return items + half_line(camera, size, pixel, options.half_line, content.pointed)
+            return items + half_line(camera, size, pixel, options.half_line)
         if options.meetings:
             items += meetings(camera, size, pixel, content.meetings, end, options.meetings)
         else:
@@ -110,22 +108,21 @@ def plane_items(content: Content) -> list[Item]:
     camera, size, options = content.camera, content.size, content.options
     items: list[Item] = []
     if (options.image or options.grid) and not options.simple:
-        items += _image(camera, size)
+        items += _image(camera)
     if options.grid:
         lines = grid(camera, size, content.grid_parts)
         items.append(Segments("grid", "grid", lines, 0.75, 0.4, 0.1, on_plane=True, layer=0))
-    if content.number_step is not None and has_plane(camera):
+    if content.number_step is not None:
         pixel = None if content.marked is None else content.marked.pixel
         items += pixel_numbers(camera, size, pixel, content.base, content.number_step)
     return items
 
 
-def _image(camera: Camera, size: Size) -> list[Item]:
-    if not has_plane(camera):
-        return image_sphere(camera, size)
+def _image(camera: Camera) -> list[Item]:
     edges = polyline(plane_corners(camera), True)
     plane = Segments("image plane", "plane", edges, 2.4, on_plane=True)
-    return [plane] if camera.lens is None else [plane, ideal_border(camera)]
+    has_ideal = camera.lens is not None and meets_plane(camera)
+    return [plane, ideal_border(camera)] if has_ideal else [plane]
 
 
 def _volume(camera: Camera, end: float) -> list[Item]:

@@ -2,34 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import moderngl
 
-from lucida.app.ui.host import Host
 from lucida.renderer.camera.checks import Floats
 
 from .cloud import Cloud
 from .diagram import Item
 from .looking import NOTHING
-from .mouse import Scope
 
 
 class Extension(NamedTuple):
     """Show something of another instrument in the view.
 
     items: lines and labels. cloud: points and lines by the thousand. picture: on the image plane,
-    instead of the live image; another texture whenever it differs. draw: called in each frame
-    inside the view's window, with the view as it was drawn, and True if the mouse is over its
-    picture; returns True if a double click there is for the instrument. The arrow keys are its own
-    then.
+    instead of the live image; another texture whenever it differs.
     """
 
     items: tuple[Item, ...] = ()
     cloud: Cloud | None = None
     picture: moderngl.Texture | None = None
-    draw: Callable[[Host, Scope, bool], bool] | None = None
 
 
 class Extensions:
@@ -47,10 +40,6 @@ class Extensions:
     def picture(self) -> moderngl.Texture | None:
         found = (one.picture for one in self.by_source.values() if one.picture is not None)
         return next(found, None)
-
-    @property
-    def guests(self) -> list[Callable[[Host, Scope, bool], bool]]:
-        return [one.draw for one in self.by_source.values() if one.draw is not None]
 
     @property
     def items(self) -> tuple[Item, ...]:

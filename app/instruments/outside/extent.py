@@ -12,12 +12,12 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import LARGEST, Floats, three
 from lucida.renderer.system.errors import LucidaError
 
-from .frustum import border, has_plane, image_point, plane_corners
+from .frustum import plane_corners
 
 FOV_Y_DEG = 50.0
 LARGE_REACH = 30.0  # in whose picture an arrow of length 1 is short
-MARGIN = (1.08, 1.08)  # the picture's width and height, in those of what it must hold
-# From which side one looks, in the other camera's terms: its right, the world's up, its back.
+MARGIN = 1.12  # a side of the picture, in those of what it must hold: room for letters
+# From which side one looks: the right of a camera, above, its back.
 FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.75, 0.5, 1.25
 
 
@@ -41,18 +41,9 @@ def around(points: Floats, arrow: float, *cameras: Camera) -> Floats:
     for camera in cameras:
         eye = np.asarray(camera.eye)
         tips = [eye + 1.2 * arrow * np.asarray(vector) for vector in (camera.u, camera.v, camera.w)]
-        image = plane_corners(camera)
-        if not has_plane(camera):
-            image = image_point(camera, *border(camera).T)
-        parts.append(np.array([eye, *tips, *image]))
+        parts.append(np.array([eye, *tips, *plane_corners(camera)]))
     everything = np.concatenate(parts)
     return everything[np.isfinite(everything).all(axis=1)]
-
-
-def way_of(axis: str) -> Floats:
-    """Return the unit vector of an axis of the world: "x", "-x", ... "-z"."""
-    way = np.eye(3)["xyz".index(axis[-1])]
-    return -way if axis.startswith("-") else way
 
 
 def end_parameter(camera: Camera, points: Floats) -> float:
@@ -70,36 +61,29 @@ def end_parameter(camera: Camera, points: Floats) -> float:
     return float(max(1.04 * t.max(), least))
 
 
-def outside_camera(
-    points: Floats, home: Camera, aspect: float, margin: tuple[float, float] = MARGIN
-) -> Camera:
+def outside_camera(points: Floats, home: Camera, aspect: float) -> Camera:
     """Return a camera that sees all points as large as possible, from the right, from behind
     and from above the camera `home`, fitted to width / height = aspect.
 
-    points: (n, 3); those that are not finite are ignored. margin: see MARGIN.
+    points: (n, 3); those that are not finite are ignored.
     """
     points = points[np.isfinite(points).all(axis=1) & (np.abs(points).max(axis=1) < LARGEST / 1e3)]
     if not len(points):
         points = np.zeros((1, 3))
-    right, up, back = level_frame(home)
-    toward = FROM_RIGHT * right + FROM_ABOVE * up + FROM_BEHIND * back
-    return framed(points, toward / np.linalg.norm(toward), aspect, margin=margin)
+    return framed(points, looked_from(np.array([0.0, 1.0, 0.0]), np.asarray(home.w)), aspect)
 
 
-def level_frame(camera: Camera) -> tuple[Floats, Floats, Floats]:
-    """Return a camera's right and back in the horizontal plane, with the world's up; unit
-    vectors.
+def looked_from(up: Floats, back: Floats) -> Floats:
+    """Return the unit vector towards an eye that looks from the right of a camera, from behind it
+    and from above. up: a unit vector. back: of the camera.
     """
-    up = np.array([0.0, 1.0, 0.0])
-    back = np.asarray(camera.w) / np.linalg.norm(camera.w)
     level = back - (back @ up) * up
-    if np.linalg.norm(level) < 0.05:  # looking straight up or down: the top of its image
-        top = np.asarray(camera.v) / np.linalg.norm(camera.v)
-        level = -math.copysign(1.0, back @ up) * (top - (top @ up) * up)
-    if np.linalg.norm(level) < 1e-6:
-        level = np.array([0.0, 0.0, 1.0])
+    if np.linalg.norm(level) < 0.05 * np.linalg.norm(back):
+        level = np.eye(3)[int(np.argmin(np.abs(up)))]
+        level = level - (level @ up) * up
     level = level / np.linalg.norm(level)
-    return np.cross(up, level), up, level
+    way = FROM_RIGHT * np.cross(up, level) + FROM_ABOVE * up + FROM_BEHIND * level
+    return way / np.linalg.norm(way)
 
 
 def framed(
@@ -107,13 +91,12 @@ def framed(
     toward: Floats,
     aspect: float,
     up: Iterable[float] = (0.0, 1.0, 0.0),
-    margin: tuple[float, float] = MARGIN,
 ) -> Camera:
     """Return the camera in direction `toward` of the points, unit length, that sees them all as
-    large as possible.
+    large as possible, but for a margin.
 
     Each plane of a view pyramid bounds the eye linearly, so the nearest eye that satisfies all
-    four is exact. points: (n, 3), at least one. margin: room around them, see MARGIN.
+    four is exact. points: (n, 3), at least one.
     """
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     upward = np.asarray(tuple(up), float)
@@ -125,29 +108,16 @@ def framed(
     least = max(1e-6 * float(np.abs(center).max()), 1e-9)
     radius = max(float(np.linalg.norm(points - center, axis=1).max()), least)
     tangent_y = math.tan(math.radians(FOV_Y_DEG) / 2)
-    tangents = tangent_y * aspect / margin[0], tangent_y / margin[1]
+    tangents = tangent_y * aspect / MARGIN, tangent_y / MARGIN
     offsets, depths = [], [1.02 * float(z.max()) + 0.05 * radius]
     for across, tangent in ((x, tangents[0]), (y, tangents[1])):
         high, low = float((across + tangent * z).max()), float((across - tangent * z).min())
         depths.append((high - low) / (2 * tangent))
         offsets.append((high + low) / 2)
     depth = max(depths)
-    offsets = [_centered(across, depth - z, at) for across, at in zip((x, y), offsets, strict=True)]
     right, top, back = (np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
     try:
         eye = center + offsets[0] * right + offsets[1] * top + depth * back
         return replace(camera, eye=three(eye))
     except LucidaError:  # a scene at the very ends of the numbers
         return Camera.look_at((3.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=FOV_Y_DEG, aspect=aspect)
-
-
-def _centered(across: Floats, depths: Floats, at: float) -> float:
-    """Return the place of the eye, near `at`, from which points reach equally far to both sides.
-
-    Newton's method: the two outermost points stay the same from the first steps on.
-    """
-    for _ in range(6):
-        slopes = (across - at) / depths
-        high, low = int(slopes.argmax()), int(slopes.argmin())
-        at += float((slopes[high] + slopes[low]) / (1 / depths[high] + 1 / depths[low]))
-    return at

@@ -3,8 +3,7 @@
 Pure. In the image, (x, y) are coordinates on the image plane in units of u and v; t is the ray
 parameter. Shapes of points end in 3.
 
-A camera with a lens has its image on the plane as long as all of its rays meet that plane; another
-one has it on a sphere around the eye, whose radius is `distance`.
+Behind a lens, rays do not pass their pixels on the image plane; some may not meet it at all.
 """
 
 from __future__ import annotations
@@ -32,15 +31,11 @@ def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats
     """Return world points (..., 3) at parameter t of the rays through (x, y) of the image plane;
     NaN outside of the lens.
     """
-    if camera.lens is not None:
-        along = ways(camera, x, y) @ camera.basis.T
-        return np.asarray(camera.eye) + np.asarray(t, float)[..., None] * along
-    x, y, t = (np.asarray(part, float)[..., None] for part in (x, y, t))
-    across = x * np.asarray(camera.u) + y * np.asarray(camera.v)
-    eye, w = np.asarray(camera.eye), np.asarray(camera.w)
-    if camera.is_parallel:
-        return eye + across - t * w
-    return eye + t * (across - camera.distance * w)
+    x, y, t = (np.asarray(part, float) for part in (x, y, t))
+    if not camera.is_parallel:
+        return np.asarray(camera.eye) + t[..., None] * camera.direction(x, y)
+    across = x[..., None] * np.asarray(camera.u) + y[..., None] * np.asarray(camera.v)
+    return np.asarray(camera.eye) + across - t[..., None] * np.asarray(camera.w)
 
 
 def on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Floats:
@@ -63,51 +58,30 @@ def plane_corners(camera: Camera) -> Floats:
     return point_at(camera.pinhole, *corners, plane_parameter(camera))
 
 
-def has_plane(camera: Camera) -> bool:
-    """Return True if all rays meet the image plane, so that the image is on it."""
-    return camera.lens is None or _is_flat(_optics(camera))
-
-
 def image_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
-    """Return the world points (..., 3) of the image that shows them at (x, y): on the image plane,
-    or on the sphere; there NaN outside of the lens.
-    """
-    if has_plane(camera):
-        return point_at(camera.pinhole, x, y, plane_parameter(camera))
-    return ideal_point(camera, x, y)
+    """Return the world points (..., 3) of the image plane at (x, y), where the image shows them."""
+    return point_at(camera.pinhole, x, y, plane_parameter(camera))
 
 
 def ideal_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
-    """Return where the rays through (x, y) of the image meet the image plane, or the sphere: world
-    points (..., 3). Without a lens, these are the points of the image.
+    """Return where a lens's rays through (x, y) meet the image plane, world points (..., 3). Only
+    if meets_plane().
     """
-    if camera.lens is None:
-        return image_point(camera, x, y)
-    along = ways(camera, x, y)
-    ahead = -along[..., 2] if has_plane(camera) else np.linalg.norm(along, axis=-1)
+    ahead = -camera.direction(x, y) @ camera.camera_from_world[2, :3]
     return point_at(camera, x, y, camera.distance / ahead)
 
 
-def ways(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
-    """Return the directions of the rays through (x, y), (..., 3), in units of u, v and w; NaN
-    outside of the lens. Only for a camera with a lens.
-
-    The last ones are kept: they stay the same while a camera moves.
-    """
-    x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
-    return _kept_ways(_optics(camera), x.shape, x.tobytes(), y.tobytes())
+def meets_plane(camera: Camera) -> bool:
+    """Return True if all rays of a camera with a lens meet the image plane not too far away."""
+    optics = _optics(camera)
+    along = optics.direction(*border(optics).T)
+    cosines = -along[:, 2] / np.linalg.norm(along, axis=1)
+    return bool((cosines > math.cos(math.radians(STEEPEST_DEG))).all())
 
 
 def _optics(camera: Camera) -> Camera:
     """Return a camera at the origin with the same viewport, distance and lens."""
     return Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens)
-
-
-@lru_cache(maxsize=512)
-def _kept_ways(optics: Camera, shape: tuple[int, ...], x: bytes, y: bytes) -> Floats:
-    found = optics.direction(*(np.frombuffer(axis).reshape(shape) for axis in (x, y)))
-    found.flags.writeable = False
-    return found
 
 
 def border(camera: Camera, parts: int = CURVE) -> Floats:
@@ -145,13 +119,6 @@ def _border(optics: Camera, parts: int) -> Floats:
     return found
 
 
-@lru_cache(maxsize=64)
-def _is_flat(optics: Camera) -> bool:
-    along = optics.direction(*_border(optics, CURVE).T)
-    cosines = -along[:, 2] / np.linalg.norm(along, axis=1)
-    return bool((cosines > math.cos(math.radians(STEEPEST_DEG))).all())
-
-
 def grid_step(size: Size, most: int = MOST_GRID_LINES) -> int:
     """Return the number of pixels between the grid's lines, so that no side has more than
     `most` parts.
@@ -162,24 +129,17 @@ def grid_step(size: Size, most: int = MOST_GRID_LINES) -> int:
 
 
 def grid(camera: Camera, size: Size, most: int = MOST_GRID_LINES) -> Floats:
-    """Return the pixel grid's inner lines on the image, (n, 2, 3): on a sphere as short ones, as
-    far as the lens sees them.
+    """Return the pixel grid's inner lines on the image plane, (n, 2, 3).
 
     size: of the image. most: parts of a side.
     """
     left, right, bottom, top = camera.viewport
-    step, pieces = grid_step(size, most), 1 if has_plane(camera) else 2 * CURVE
+    step = grid_step(size, most)
     x = left + np.arange(step, size[0], step) / size[0] * (right - left)
     y = top - np.arange(step, size[1], step) / size[1] * (top - bottom)
-    across, down = np.linspace(left, right, pieces + 1), np.linspace(top, bottom, pieces + 1)
-    lines = [
-        image_point(camera, *np.broadcast_arrays(x[:, None], down)),
-        image_point(camera, *np.broadcast_arrays(across, y[:, None])),
-    ]
-    found = np.concatenate(
-        [np.stack([line[:, :-1], line[:, 1:]], axis=2).reshape(-1, 2, 3) for line in lines]
-    )
-    return found[np.isfinite(found).all(axis=(1, 2))]
+    down = image_point(camera, x[:, None], np.array([top, bottom]))
+    across = image_point(camera, np.array([left, right]), y[:, None])
+    return np.concatenate([down, across])
 
 
 def pixel_corners(camera: Camera, pixel: Pixel, size: Size) -> Floats:
@@ -205,7 +165,7 @@ def pixel_seen(
     """Return the pixel of the image plane that a ray from elsewhere meets, and the ray's t there;
     None if it meets none.
     """
-    found = on_plane(camera, origin, direction) if has_plane(camera) else None
+    found = on_plane(camera, origin, direction)
     if found is None:
         return None
     x, y, t = found

@@ -1,5 +1,5 @@
-"""Handles in the outside view that move the eye or the image plane of the camera, and turn its
-basis, or the vector up that the basis is made from (ImGuizmo).
+"""Handles in the outside view that move the camera's eye, and turn its basis, or the vector up that
+the basis is made from (ImGuizmo).
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 from imgui_bundle import ImVec2, ImVec4, imgui, imguizmo
-from numpy.typing import ArrayLike
 
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
@@ -22,18 +21,14 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, Vector, three, volume
 from lucida.renderer.system.errors import LucidaError
 
-from .frustum import plane_corners
 from .mouse import Scope
-from .tint import Rgb8, handle_colors, hide_text, recolor
+from .tint import Rgb8, handle_colors, repaint
 
 gizmo = imguizmo.im_guizmo
-OPERATIONS = {"move": gizmo.OPERATION.translate, "distance": gizmo.OPERATION.translate_z}
 
 LENGTH = 0.26  # of the view: the handles' length in clip space
 WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # at 100 %: of lines, their heads, rings
-TEXT_AT = 18.0  # at 100 %: the text's distance from the eye, to the right and below
 PARALLEL = math.sin(math.radians(3))  # of up with w: then it is put quite parallel
-LEAST_DISTANCE = 0.01  # of the largest one while a plane is dragged
 NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
 
 
@@ -67,19 +62,16 @@ class Gizmo:
 
         ground: the colour under the handles.
         """
-        state, options, kind = (
-            host.state,
-            host.state.options.outside,
-            host.state.options.outside.gizmo,
-        )
+        state, options = host.state, host.state.options.outside
+        kind = options.gizmo
         if kind == "none" or (kind == "up" and options.target is None):
             self.over = False
             self.cancel()
             return
         camera, frame = state.camera, np.eye(4)
         frame[:3, :3] = rotation_of(camera) if self._drag is None else self._drag.now
-        frame[:3, 3] = plane_corners(camera).mean(axis=0) if kind == "distance" else camera.eye
-        operation = OPERATIONS.get(kind, gizmo.OPERATION.rotate)
+        frame[:3, 3] = camera.eye
+        operation = gizmo.OPERATION.translate if kind == "move" else gizmo.OPERATION.rotate
         # In its own space, x, y and z are u, v and w.
         handle = Handle(
             "outside", frame, operation, gizmo.MODE.local, LENGTH, handle_colors(ground)
@@ -103,18 +95,12 @@ class Gizmo:
             # One drag is one undo step.
             state = state.with_camera(after[0]).with_options(replace(options, up=after[1]))
             host.apply(state, ("outside gizmo", self._count))
-        if kind == "distance":
-            text, place = f"d = {after[0].distance:.4g}", frame[:3, 3]
-            write(text, found.clip_from_world, place, scope.origin, scope.extent, host.fonts)
 
     def _moved(self, drag: _Drag, state: AppState, result: Floats) -> tuple[Camera, Vector]:
         """Return the camera and up after a drag to the frame `result`, (4, 4)."""
         camera, options = state.camera, state.options.outside
         if options.gizmo == "move":
             return replace(camera, eye=three(result[:3, 3])), options.up
-        if options.gizmo == "distance":
-            distance = distance_of(drag.camera, result[:3, 3])
-            return replace(camera, distance=distance), options.up
         turned = nearest_rotation(result[:3, :3] @ drag.frame.T)
         self._drag = replace(drag, now=turned @ drag.frame)
         if options.gizmo == "up":
@@ -122,12 +108,6 @@ class Gizmo:
         u, v, w = (turned @ drag.camera.basis).T
         camera = replace(camera, u=three(u), v=three(v), w=three(w))
         return camera.orthonormalized() if state.keep_orthonormal else camera, options.up
-
-
-def distance_of(camera: Camera, middle: Floats) -> float:
-    """Return the distance, in units of w, at which the image plane goes through a point."""
-    ahead = np.linalg.solve(camera.basis, np.subtract(camera.eye, middle))[2]
-    return max(float(ahead), LEAST_DISTANCE * camera.distance)
 
 
 def with_up(camera: Camera, before: Camera, up: Floats) -> tuple[Camera, Vector]:
@@ -144,34 +124,6 @@ def with_up(camera: Camera, before: Camera, up: Floats) -> tuple[Camera, Vector]
     lengths = (float(np.linalg.norm(v)) for v in (before.u, before.v))
     u, v = (length * axis for length, axis in zip(lengths, (u, np.cross(w, u)), strict=True))
     return replace(camera, u=three(u), v=three(v)), three(up)
-
-
-def write(
-    text: str,
-    clip_from_world: Floats,
-    point: ArrayLike,
-    origin: ImVec2,
-    extent: ImVec2,
-    fonts: theme.Fonts,
-) -> None:
-    """Write text next to a point of the world that is being moved, on its own ground.
-
-    origin, extent: of the view.
-    """
-    x, y, _, w = clip_from_world @ np.append(point, 1.0)
-    if not text or not w > 0:
-        return
-    at = ImVec2(
-        origin.x + (x / w + 1) / 2 * extent.x + theme.px(TEXT_AT),
-        origin.y + (1 - y / w) / 2 * extent.y + theme.px(TEXT_AT),
-    )
-    imgui.push_font(fonts.bold, 0.0)
-    size, pad = imgui.calc_text_size(text), theme.px(5)
-    low, far = ImVec2(at.x - pad, at.y - pad), ImVec2(at.x + size.x + pad, at.y + size.y + pad)
-    draw = imgui.get_window_draw_list()
-    draw.add_rect_filled(low, far, theme.u32(theme.PANEL, 0.9), theme.px(3))
-    draw.add_text(at, theme.u32(theme.TEXT), text)
-    imgui.pop_font()
 
 
 class Handle(NamedTuple):
@@ -196,7 +148,6 @@ class Manipulated(NamedTuple):
     using: bool
     over: bool
     moved: Floats | None
-    clip_from_world: Floats
 
 
 def manipulate(
@@ -227,10 +178,9 @@ def manipulate(
     )  # fmt: skip
     using, over = is_dragging(), gizmo.is_using() or gizmo.is_over()
     gizmo.pop_id()  # is_using() asks for the pushed one
-    recolor(draw, first, handle.colors)
-    hide_text(draw, first)
+    repaint(draw, first, handle.colors)
     after = np.asarray(matrix.values, float).reshape(4, 4).T if moved else None
-    return Manipulated(using, over, after, projection @ view)
+    return Manipulated(using, over, after)
 
 
 def gl_matrices(camera: Camera, point: Floats, reach: float) -> tuple[Floats, Floats] | None:
@@ -264,7 +214,7 @@ def nearest_rotation(matrix: Floats) -> Floats:
     return rotation
 
 
-_begun = -1
+_begun = -1  # the frame of the latest handles
 _let_go = False
 
 

@@ -13,13 +13,11 @@ from .mouse import Scope
 
 
 class Hosted:
-    """view: the name of the view. guest: set by itself; None: there is none. double_is_taken: a
-    double click where the mouse is belongs to somebody else."""
+    """view: the name of the view. guest: set by itself; None: there is none."""
 
     def __init__(self, view: str) -> None:
         self._view = view
         self.guest: Guest | None = None
-        self.double_is_taken = False
         self._took_double = False  # whose release is no click
 
     @property
@@ -44,10 +42,6 @@ class Hosted:
         """
         left = imgui.MouseButton_.left
         double = imgui.is_item_activated() and imgui.is_mouse_double_clicked(left)
-        if double and self.double_is_taken:
-            host.unclick()
-            self._took_double = True
-            return True
         if clicked and self._took_double:
             self._took_double = False
             return True

@@ -28,28 +28,16 @@ from .diagram import RayEnd
 from .extent import (
     around,
     arrow_length,
-    framed,
     outside_camera,
-    way_of,
 )
 from .frustum import bundle_pixels
 from .mouse import Area, Scope
 from .screen import NEAREST, OutsideScreen
 
 NOTHING = np.zeros((0, 3))
-LETTER_PX = 26.0  # round what is framed, for letters
-MOST_MARGIN = 1.6  # the most of a view's side, in sides of what is framed
 STILL_S = 0.25  # without a change of the other camera, before the view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
-AXIS_NAMES = {
-    "x": "from the right (+x)",
-    "-x": "from the left (-x)",
-    "y": "from above (+y)",
-    "-y": "from below (-y)",
-    "z": "from the front (+z)",
-    "-z": "from behind (-z)",
-}
 LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
 
 
@@ -81,7 +69,7 @@ class Scopes:
         not the user's own stays where it is. held: a mouse button is; a pause ends no drag.
         """
         both, state = host.renderers, host.state
-        place = (area.size, *area.origin, *area.extent, theme.px(LETTER_PX))
+        place = (area.size, *area.origin, *area.extent)
         options, inner = state.options.outside, both.camera(state)
         looking = options.camera
         fixed = state.scene, more, looking, options.turned, both.size, place, state.step
@@ -134,17 +122,9 @@ def scope_of(host: Host, area: Area, more: Floats = NOTHING) -> Scope:
 
 
 def camera_for_all(host: Host, area: Area, more: Floats = NOTHING) -> Camera:
-    """Return the outside camera that sees everything, with room for letters around it."""
-    room = 2 * theme.px(LETTER_PX)
-    across, down = (side / max(side - room, side / MOST_MARGIN, 1.0) for side in area.extent)
+    """Return the outside camera that sees everything."""
     home = host.state.scene.view.camera
-    return outside_camera(_points(host, more), home, area.size[0] / area.size[1], (across, down))
-
-
-def camera_along(host: Host, scope: Scope, axis: str, more: Floats = NOTHING) -> Camera:
-    """Return the outside camera that looks along an axis of the world and sees everything."""
-    aspect = scope.extent.x / max(scope.extent.y, 1.0)
-    return framed(_points(host, more), way_of(axis), aspect)
+    return outside_camera(_points(host, more), home, area.size[0] / area.size[1])
 
 
 def nearest(camera: Camera, scope: Scope) -> float:

@@ -14,18 +14,18 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.intrinsics import PixelOrigin
 
 from .diagram import Arrow, Dot, Item, Label, line
-from .frustum import has_plane, image_point, plane_corners
+from .frustum import image_point, plane_corners
 
 MOST_TICKS = 32  # of a side
 
 
 def pixel_items(camera: Camera, size: Size, origin: PixelOrigin) -> tuple[Item, ...]:
     """Return the focal length, the principal point, the pixels' coordinates and the
-    corners; nothing without a flat image in perspective.
+    corners; nothing of a parallel camera.
 
     camera: fitted to its image of `size`. origin: where whole numbers are.
     """
-    if camera.is_parallel or not has_plane(camera):
+    if camera.is_parallel:
         return ()
     K = camera.intrinsics(size, origin).K
     fx, fy, cx, cy = (float(K[at]) for at in ((0, 0), (1, 1), (0, 2), (1, 2)))

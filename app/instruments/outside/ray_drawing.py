@@ -12,6 +12,7 @@ from lucida.app.state.options.outside import Point
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.explaining.notation import number
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 
 from .diagram import (
@@ -33,13 +34,10 @@ PALE = 0.35
 WIDTH = 3.0
 
 
-def half_line(
-    camera: Camera, size: Size, pixel: Pixel, grown: float, pointed: float | None
-) -> list[Item]:
+def half_line(camera: Camera, size: Size, pixel: Pixel, grown: float) -> list[Item]:
     """Return a pixel's ray as half a line.
 
-    grown: the number of complete parts: p, d, the whole line, and the fading of t < 0. pointed: the
-    t under the mouse.
+    grown: the number of complete parts: p, d, the whole line, and the fading of t < 0.
     """
     begun, ahead, whole, faded = shares(grown, 4)
     t = [BEFORE, 0.0, LAST, NAMED, *TICKS]
@@ -48,12 +46,11 @@ def half_line(
         return []
     up = camera.basis[:, 1]
 
-    def named_point(name: str, role: Role, text: str, radius: float, t: float) -> list[Item]:
-        at = on_ray(camera, pixel, size, [t])[0]
-        dot = Dot(name, role, at, radius, layer=6 if role == "mark" else 5)
-        return [dot, Label(name, role, text, at, away=at + up, strong=True)]
+    def named_point(name: str, text: str, radius: float, at: Floats) -> list[Item]:
+        dot = Dot(name, "ray", at, radius, layer=5)
+        return [dot, Label(name, "ray", text, at, away=at + up, strong=True)]
 
-    items = named_point("p", "ray", "vec(p)", 6.0 * begun, 0.0)
+    items = named_point("p", "vec(p)", 6.0 * begun, origin)
     if ahead:
         items += term("d", "ray", "vec(d)", origin, origin + ahead * (ticks[0] - origin), -up)
     if whole:
@@ -63,12 +60,10 @@ def half_line(
             items.append(Segments(name, "ray", line, WIDTH * pale, pale, 0.6 * pale,
                                   dashed=pale < 1, layer=3))  # fmt: skip
     if whole == 1:
-        for tick in TICKS:
-            items += named_point(f"t = {tick:g}", "ray", f"t = {tick:g}", 5.0, tick)
+        for t_here, at in zip(TICKS, ticks, strict=True):
+            items += named_point(f"t = {t_here:g}", f"t = {t_here:g}", 5.0, at)
         formula = "vec(r)(t) = vec(p) + t vec(d)"
         items.append(Label("line", "ray", formula, named, away=named - up, strong=True))
-        if pointed is not None and (pointed > 0 or not faded):
-            items += named_point("pointed", "mark", f"t = {pointed:.2f}", 7.0, pointed)
     if faded == 1:
         items.append(Label("t < 0", "ray", "t < 0", before, away=before + up, strong=True))
     return items

@@ -17,7 +17,7 @@ from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.raster.overlay import Plane, plane_on_screen
 
-from .frustum import has_plane, plane_corners
+from .frustum import plane_corners
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off
 NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to the scene
@@ -105,13 +105,6 @@ class OutsideScreen:
             visible = (spots @ self._planes.T >= 0).all(axis=-1)  # of NaN, nothing is
             return Seen(spots, *self.on_screen(spots), visible)
 
-    def spots(self, points: Floats) -> tuple[Floats, Floats] | None:
-        """Return pixels (..., 2) and depths (...) of points (..., 3), or None unless all of them
-        are visible.
-        """
-        found = self.seen(points)
-        return (found.points, found.depth) if found.visible.all() else None
-
     def px_world(self, t: float) -> float:
         """Return a pixel's width in world units at a distance t in front of the camera."""
         camera = self.camera
@@ -128,11 +121,9 @@ class OutsideScreen:
 
 
 def image_plane(camera: Camera, looking: Camera, size: Size) -> Plane | None:
-    """Return a camera's image plane in the picture of another one, of `size`; None if it has none,
-    or is seen edge-on.
+    """Return a camera's image plane in the picture of another one, of `size`; None if it is seen
+    edge-on.
     """
-    if not has_plane(camera):
-        return None
     corners = plane_corners(camera)[[0, 1, 3]]
     behind = corners[0] + np.asarray(camera.w)  # the side from which it is upright
     return plane_on_screen(looking, size, corners, behind)

@@ -1,4 +1,4 @@
-"""Write a figure as an SVG file: self-contained, the scene as a PNG, letters as text; or as pixels.
+"""Write a figure as an SVG file: self-contained, the scene as a PNG, letters as text.
 
 The same figure makes the same bytes. Source: SVG 1.1 (W3C, second edition); `data-name` is from
 SVG 2.
@@ -11,9 +11,7 @@ import io
 import re
 from collections.abc import Callable
 from html import escape
-from pathlib import Path
 
-import imgui_bundle
 import numpy as np
 from PIL import Image
 
@@ -40,8 +38,6 @@ MONO_WIDTH = 0.5  # of a letter, in parts of its size
 ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 BLACK = (0.0, 0.0, 0.0)
 CASING, PALEST = 2.0, 0.45  # it is wider than a line by so many units; paler lines have none
-FACES = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto"
-FINE = 2  # samples a side of a pixel: resvg does not average the pixels of a larger image
 BASELINE = 0.35  # below a line's middle, in parts of the font's size
 
 
@@ -62,16 +58,6 @@ def svg(figure: Figure, title: str = "") -> str:
         f"<title>{escape(_legal(title))}</title>",
     ]
     return "\n".join([*lines, *content(figure), "</svg>", ""])
-
-
-def painted(figure: Figure) -> Image.Image:
-    """Return the file as pixels of the page, sRGB and opacity, drawn by resvg."""
-    import resvg_py  # for PNG files alone
-
-    faces = [str(FACES / f"Roboto-{face}.ttf") for face in ("Regular", "Bold")]
-    drawn = resvg_py.svg_to_bytes(svg(figure), skip_system_fonts=True, font_files=faces, zoom=FINE)
-    with Image.open(io.BytesIO(drawn)) as file:
-        return file.convert("RGBA").resize(figure.size, Image.Resampling.BOX)
 
 
 def content(figure: Figure, address: Callable[[Bytes], str] = png_address) -> list[str]:

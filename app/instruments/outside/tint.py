@@ -32,21 +32,17 @@ def handle_colors(ground: Rgb) -> dict[Rgb8, ImVec4]:
     return {**colors, HELD: theme.rgb("#ffffff")}
 
 
-def recolor(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb8, ImVec4]) -> None:
-    """Exchange colours in all vertices of a draw list from `first` on. Opacities stay."""
+def repaint(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb8, ImVec4]) -> None:
+    """Exchange colours in all vertices of a draw list from `first` on, whose opacities stay. Hide
+    the text that ImGuizmo wrote last, which calls the basis x, y and z: the letters of its shadow,
+    and as many after them.
+    """
     packed = vertex_colors(draw)[first:]
     rgb = packed & 0xFFFFFF
     for old, new in colors.items():
         changed = rgb == _packed(old)
         rest = packed[changed] & 0xFF000000
         packed[changed] = rest | _packed(tuple(round(255 * x) for x in (new.x, new.y, new.z)))
-
-
-def hide_text(draw: imgui.ImDrawList, first: int) -> None:
-    """Make the text transparent that ImGuizmo wrote last, which calls the basis x, y and z: the
-    letters of its shadow, and as many after them.
-    """
-    packed = vertex_colors(draw)[first:]
     shadow = np.flatnonzero(packed == SHADOW)
     if len(shadow):
         packed[shadow[0] : shadow[0] + 2 * len(shadow)] = 0

@@ -1,4 +1,4 @@
-"""The tools over the outside view: its menu, the axes that turn it, the labels."""
+"""The tools over the outside view: its menu, the world's axes, the labels."""
 
 from __future__ import annotations
 
@@ -13,14 +13,13 @@ from lucida.app.state.bounds import whole_range_of
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.ui import theme
 from lucida.app.ui.action import Action, draw_entry
-from lucida.app.ui.areas import press_area
 from lucida.app.ui.host import Host
 from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 
 from .diagram import Role
-from .looking import AXIS_NAMES, TRIAD_PX
+from .looking import TRIAD_PX
 from .mouse import Scope
 from .paint import label_color
 from .painting import measured, rimmed_text
@@ -29,15 +28,12 @@ from .projected import Primitive, Text
 
 MENU = "Instruments/In the outside view"
 PAD = 6  # around the menu's button
-ALONG = 0.999  # the part of an axis that is toward the camera, if that looks along it
 GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # of the axes
 
 
-def use_tools(
-    host: Host, scope: Scope, actions: Iterable[Action]
-) -> tuple[str | None, tuple[Edges, ...]]:
-    """Draw the menu and the axes into the view's window. Return the clicked axis, and the boxes
-    that both cover, in the view's pixels.
+def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> tuple[Edges, ...]:
+    """Draw the menu and the axes into the view's window. Return the boxes that they cover, in the
+    view's pixels.
 
     actions: of the menu.
     """
@@ -52,9 +48,9 @@ def use_tools(
             if action.keys == "B":
                 _bundle_fields(host)
         imgui.end_popup()
-    axis = triad(scope.shown, origin, scope.extent)
+    draw_axes(scope.shown, origin, scope.extent)
     scale, right, around = framebuffer_scale(), scope.extent.x, 2 * theme.px(TRIAD_PX)
-    return axis, (
+    return (
         (0.0, 0.0, scale * (covered.x + pad), scale * (covered.y + pad)),
         (scale * (right - around), 0.0, scale * right, scale * around),
     )
@@ -68,35 +64,26 @@ def _bundle_fields(host: Host) -> None:
         host.edit(replace(options, bundle=(rows, columns)))
 
 
-def triad(camera: Camera, origin: ImVec2, extent: ImVec2) -> str | None:
+def draw_axes(camera: Camera, origin: ImVec2, extent: ImVec2) -> None:
     """Draw the world's axes in the upper right corner, as the camera sees them, in gray: colours
     are for the basis. A view that is narrower than they are has none.
-
-    Return the clicked one, with a minus sign if the camera looks along it already.
     """
     side, radius, ball = theme.px(TRIAD_PX), theme.px(30), theme.px(9.5)
     if extent.x < 2 * side:
-        return None
+        return
     middle, draw = ImVec2(origin.x + extent.x - side, origin.y + side), imgui.get_window_draw_list()
     disc = radius + ball + theme.px(3)
     draw.add_circle_filled(middle, disc, theme.u32(theme.rgb("#0c0d0f", 0.45)), 48)
-    clean, clicked = camera.orthonormalized(), None
-    axes = zip(clean.w, "xyz", clean.u, clean.v, strict=True)
-    for depth, name, across, up in sorted(axes):  # the farthest is first
-        asked = f"-{name}" if depth > ALONG else name
+    clean = camera.orthonormalized()
+    for depth, name, across, up in sorted(zip(clean.w, "xyz", clean.u, clean.v, strict=True)):
         spot = ImVec2(middle.x + radius * across, middle.y - radius * up)
-        light = GRAYS[name] * (0.55 + 0.225 * (1 + depth))
+        light = GRAYS[name] * (0.55 + 0.225 * (1 + depth))  # the farthest is first, and darkest
         color = theme.u32(ImVec4(light, light, light, 1.0))
         draw.add_line(middle, spot, color, theme.px(2.2))
         draw.add_circle_filled(spot, ball, color)
         text = imgui.calc_text_size(name)
         at = ImVec2(spot.x - text.x / 2, spot.y - text.y / 2 - theme.px(1))
         draw.add_text(at, theme.u32(theme.rgb("#101215")), name)
-        imgui.set_cursor_screen_pos(ImVec2(spot.x - ball, spot.y - ball))
-        if press_area(f"axis {name}##outside", ImVec2(2 * ball, 2 * ball)):
-            clicked = asked
-        imgui.set_item_tooltip(f"look {AXIS_NAMES[asked]}")
-    return clicked
 
 
 STRONG = 1.5  # the size of names that teach, in sizes of the type

@@ -51,7 +51,6 @@ from .growing import grown_diagram
 from .hosted import Hosted
 from .looking import (
     Scopes,
-    camera_along,
     camera_for_all,
     nearest,
     ray_ends,
@@ -180,11 +179,6 @@ class OutsideView(Instrument):
         """Look through a camera; None: through one that sees everything."""
         host.travel(self.with_own_camera(host.state, camera))
 
-    def look_along(self, host: Host, axis: str) -> None:
-        """Look along an axis of the world, "x", "-x", ... "-z", at everything."""
-        assert self.scope is not None
-        self.look(host, camera_along(host, self.scope, axis, self.extensions.points))
-
     def object_under(self, host: Host) -> int | None:
         if self.scope is None:
             return None
@@ -215,14 +209,9 @@ class OutsideView(Instrument):
         self._gizmo.follow(host, scope, ground)
         tools: tuple[Edges, ...] = ()
         if host.has_tools:
-            axis, tools = use_tools(host, scope, self.actions)
-            if axis is not None:
-                self.look_along(host, axis)
+            tools = use_tools(host, scope, self.actions)
         labels = self._written(self._made.primitives, self._placer, size, host.fonts, tools)
         draw_labels(labels, area.origin)
-        taken = [guest(host, scope, self._over) for guest in self.extensions.guests]
-        if self._over:  # not between the two clicks, when the button is held
-            self.hosted.double_is_taken = any(taken)
         self.hosted.draw(host, scope, self._over)
         draw.pop_clip_rect()
 
@@ -251,7 +240,7 @@ class OutsideView(Instrument):
             buttons.mouse_button_left | buttons.mouse_button_right | buttons.mouse_button_middle,
         )
         self._over = imgui.is_item_hovered() and not self._mouse.dragging
-        right, down = (0, 0) if self.extensions.guests else focused_steps()
+        right, down = focused_steps()
         if right or down:
             camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
             host.apply(self.with_own_camera(host.state, camera), (self.name, "turned"))
@@ -305,8 +294,6 @@ class OutsideView(Instrument):
             host.animate()
         near, units = nearest(camera, scope), units_px(scope.extent)
         content = self.content(host, OutsideScreen(camera, size, near, *units))
-        if state.options.outside.half_line and self._over:
-            content = replace(content, pointed=_pointed(content, scope))
         return self._drawn(
             tools, ground, content, near, units, extensions.items, extensions.cloud, picture,
             state.images.exposure_ev, (live, state.images, theme.used()),
@@ -375,14 +362,3 @@ def _drawn(
 
 def _meetings(scene: Scene, *ray: float) -> tuple[float, ...]:
     return line_meetings(scene, np.array(ray[:3]), np.array(ray[3:]))
-
-
-def _pointed(content: Content, scope: Scope) -> float | None:
-    """Return the t of the marked pixel's line that is nearest to the mouse."""
-    if content.marked is None:
-        return None
-    ray = content.camera.ray(*content.marked.pixel, content.size)
-    origin, way = scope.ray(imgui.get_mouse_pos())
-    sides = np.column_stack([ray.direction, -way])
-    found, *_ = np.linalg.lstsq(sides, origin - ray.origin, rcond=None)
-    return float(found[0])

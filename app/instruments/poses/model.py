@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lucida.app.cameras.taken import is_fitted
 from lucida.app.instruments.outside.cloud import Cloud
 from lucida.app.instruments.outside.diagram import Segments
-from lucida.app.instruments.outside.extent import FROM_ABOVE, FROM_BEHIND, FROM_RIGHT, framed
+from lucida.app.instruments.outside.extent import framed, looked_from
 from lucida.app.instruments.outside.frustum import border
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import stored
@@ -220,19 +220,6 @@ def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
     low, high = (poses.low, poses.high) if with_points else (eyes.min(axis=0), eyes.max(axis=0))
     around = np.where(CORNERS, high + size, low - size)
     return Cloud(lines, poses.origin, points, colors, around)
-
-
-def looked_from(up: Floats, back: Floats) -> Floats:
-    """Return the unit vector towards an eye that sees a set from the right of a camera, from behind
-    it and from above. up: of the set. back: of the camera.
-    """
-    level = back - (back @ up) * up
-    if np.linalg.norm(level) < 0.05 * np.linalg.norm(back):
-        level = np.eye(3)[int(np.argmin(np.abs(up)))]
-        level = level - (level @ up) * up
-    level = level / np.linalg.norm(level)
-    way = FROM_RIGHT * np.cross(up, level) + FROM_ABOVE * up + FROM_BEHIND * level
-    return way / np.linalg.norm(way)
 
 
 def with_set(state: AppState, poses: PoseSet, scene: Scene | None) -> AppState:

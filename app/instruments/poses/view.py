@@ -1,7 +1,6 @@
 """The view "Poses": a set of cameras, listed, shown in the outside view, taken one after another.
 
-The view also shows the set elsewhere, and finds the camera under the mouse. model.py prepares a
-set, panel.py draws the panel.
+model.py prepares a set, panel.py draws the panel.
 """
 
 from __future__ import annotations
@@ -15,19 +14,13 @@ from imgui_bundle import imgui
 
 from lucida.app.images.photograph.model import closed, with_photograph
 from lucida.app.instruments.outside.diagram import Dot, Face, Item, Label, Role, Segments
-from lucida.app.instruments.outside.looking import nearest
-from lucida.app.instruments.outside.mouse import Scope
-from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.instruments.outside.view import OutsideView
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import restored
 from lucida.app.ui import layout, theme
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
-from lucida.app.ui.theme import framebuffer_scale
 from lucida.app.ui.uploads import Uploads
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene import Scene
 from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.memo import Memo
@@ -42,7 +35,6 @@ from .model import (
 )
 from .panel import PoseWish
 from .photographs import Photograph, Photographs, photo_path
-from .picking import picked
 from .reading import PosesReader
 
 POSES = "Poses"
@@ -55,7 +47,6 @@ class PosesView(Instrument):
 
     poses: the open set; None if there is none, or it is being read.
     problem: the reason why it could not be read.
-    hovered: the number of the camera under the mouse in the outside view.
     """
 
     name = POSES
@@ -70,8 +61,6 @@ class PosesView(Instrument):
         self._uploads: Uploads | None = None
         self.poses: PoseSet | None = None
         self.problem = ""
-        self.hovered: int | None = None
-        self._picked = Memo(_picked)
         self._cloud = Memo(cloud)
         self._items = Memo(_outside_items)
         self._upload = Memo(_upload)
@@ -160,9 +149,9 @@ class PosesView(Instrument):
 
     def _forget_set(self) -> None:
         self._photographs.forget()
-        for memo in (self._picked, self._cloud, self._items, self._upload):
+        for memo in (self._cloud, self._items, self._upload):
             memo.forget()
-        self._scrolled = self.hovered = None
+        self._scrolled = None
 
     # The list.
 
@@ -249,7 +238,6 @@ class PosesView(Instrument):
     # In the outside view.
 
     def _hide(self) -> None:
-        self.hovered = None
         self._cloud.forget()  # it may be large
         self._outside.show(POSES, ())
 
@@ -258,53 +246,9 @@ class PosesView(Instrument):
         chosen = self.chosen(host.state)
         self._outside.show(
             POSES,
-            self._items(poses, options.length, chosen, self.hovered),
+            self._items(poses, options.length, chosen),
             cloud=self._cloud(poses, options.length, options.points),
-            draw=self._in_outside_view,
         )
-
-    def _in_outside_view(self, host: Host, scope: Scope, over: bool) -> bool:
-        """Handle the camera under the mouse, and the keys, inside the outside view's window. Return
-        True if there is such a camera: it then handles a double click.
-        """
-        poses = self.poses
-        if poses is None:
-            return False
-        wish = panel.keys()
-        if wish:
-            self._grant(host, wish)
-        hovered = self._under_mouse(host, poses, scope) if over else None
-        if hovered != self.hovered:
-            self.hovered = hovered
-            host.animate()
-        if hovered is None:
-            return False
-        imgui.set_tooltip(one_line(poses.names[hovered]))
-        if imgui.is_mouse_double_clicked(imgui.MouseButton_.left):
-            self.take(host, hovered)
-        return True
-
-    def _under_mouse(self, host: Host, poses: PoseSet, scope: Scope) -> int | None:
-        mouse, length = imgui.get_mouse_pos(), host.state.options.poses.length
-        scale = framebuffer_scale()
-        size = max(round(scope.extent.x * scale), 1), max(round(scope.extent.y * scale), 1)
-        column, row = scope.part(mouse)
-        at = column * size[0], row * size[1]
-        near, unit_px = nearest(scope.shown, scope), theme.px(1) * scale
-        return self._picked(poses, length, scope.shown, size, near, unit_px, at)
-
-
-def _picked(
-    poses: PoseSet,
-    length: float,
-    camera: Camera,
-    size: Size,
-    near: float,
-    unit_px: float,
-    at: tuple[float, float],
-) -> int | None:
-    screen = OutsideScreen(camera, size, near, unit_px)
-    return picked(poses, length * poses.length, screen, at)
 
 
 def _upload(uploads: Uploads, found: Photograph) -> None:
@@ -313,33 +257,24 @@ def _upload(uploads: Uploads, found: Photograph) -> None:
         uploads.put(PHOTO, found.pixels)
 
 
-def _outside_items(
-    poses: PoseSet, length: float, chosen: int, hovered: int | None
-) -> tuple[Item, ...]:
-    """Return the frusta of the chosen camera and of the one under the mouse."""
-    size = length * poses.length
-    items = [] if hovered in (None, chosen) else _frustum(poses, hovered, size, "mark")
-    if chosen >= 0:
-        corner, eye = poses.origins[chosen] + size * poses.ways[chosen], poses.origins[chosen]
-        name = one_line(poses.names[chosen])  # beyond a corner of the image
-        label = Label("other pose", "other", name, corner[poses.parts], away=eye.mean(axis=0))
-        items += [*_frustum(poses, chosen, size, "other"), label]
-    return tuple(items)
+def _outside_items(poses: PoseSet, length: float, chosen: int) -> tuple[Item, ...]:
+    """Return the frustum of the chosen camera, distinct from the others, and its name."""
+    if chosen < 0:
+        return ()
+    role: Role = "other"
+    size, origins = length * poses.length, poses.origins[chosen]
+    ends, eye = origins + size * poses.ways[chosen], origins.mean(axis=0)
+    image = (Face("other pose", role, ends, 0.22),) if poses.parts == 1 else ()
+    corner = ends[poses.parts]  # the name is beyond a corner of the image
+    return (
+        *image,
+        Segments("other pose", role, frusta(poses, size, [chosen]), 2.6, hidden=0.7, layer=2),
+        Dot("other pose", role, eye, 3.5),
+        Label("other pose", role, one_line(poses.names[chosen]), corner, away=eye),
+    )
 
 
 def _photographed(state: AppState, poses: PoseSet, number: int) -> AppState:
     """Return the state with a camera's photograph over the images; none if the file names none."""
     path = photo_path(poses, number)
     return with_photograph(state, str(path.absolute()) if path is not None else None)
-
-
-def _frustum(poses: PoseSet, number: int, size: float, role: Role) -> list[Item]:
-    """Return the frustum of a camera, distinct from the others."""
-    lines = frusta(poses, size, [number])
-    ends = poses.origins[number] + size * poses.ways[number]
-    image = [Face(f"{role} pose", role, ends, 0.22)] if poses.parts == 1 else []
-    return [
-        *image,
-        Segments(f"{role} pose", role, lines, 2.6, hidden=0.7, layer=2),
-        Dot(f"{role} pose", role, poses.origins[number].mean(axis=0), 3.5),
-    ]

@@ -23,8 +23,8 @@ class OutsideOptions(OptionPart):
     camera: the free camera that looks at the scene and the other camera;
         None for one that shows both. turned: its degrees around the scene.
     bundle: rows and columns of the bundle of viewing rays; (0, 0) for none.
-    gizmo: the action of the handles in the view: move the eye or the image plane, turn the basis,
-        or turn up, from which the basis then follows.
+    gizmo: the action of the handles in the view: move the eye, turn the basis, or turn up, from
+        which the basis then follows.
     target: a point to draw as **a**, with up as an arrow at the eye, from which a lecture makes a
         basis; None to draw neither.
     formula: how far the marked pixel's formula has grown, in STAGES; None to hide it.
@@ -48,7 +48,7 @@ class OutsideOptions(OptionPart):
     grid: bool = True
     ray: bool = True
     bundle: tuple[Rays, Rays] = (0, 0)
-    gizmo: Literal["none", "move", "turn", "distance", "up"] = "none"
+    gizmo: Literal["none", "move", "turn", "up"] = "none"
     target: Point | None = None
     up: Point = (0.0, 1.0, 0.0)
     formula: Annotated[float, Range(0, MOST_GROWN)] | None = None

@@ -1,11 +1,11 @@
-"""The options of the view "Your code": the file, the task, and the size of the pictures."""
+"""The options of the view "Your code": the file and the size of the pictures."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Annotated
 
-from lucida.app.state.bounds import AtMost, Beside, OptionPart, Range
+from lucida.app.state.bounds import Beside, OptionPart, Range
 
 
 @dataclass(frozen=True)
@@ -14,10 +14,8 @@ class YourCodeOptions(OptionPart):
 
     file: an absolute path, as stored() of state/paths.py writes it, "" for none; in a lecture, a
     file next to the lecture's own.
-    task: the name of the visible one; "" for the first whose function the file has.
     canvas: (width, height) of the pictures.
     """
 
     file: Annotated[str, Beside((".py",))] = ""
-    task: Annotated[str, AtMost(64)] = ""
     canvas: tuple[Annotated[int, Range(1, 64)], Annotated[int, Range(1, 48)]] = (32, 24)

@@ -6,7 +6,7 @@ import { cross, dot, length, normalized, plus, rotated, times } from "./vectors.
 
 /** @typedef {import("./vectors.js").Vec} Vec */
 /** @typedef {import("./camera.js").Camera} Camera */
-/** @typedef {"move" | "turn" | "distance" | "up" | "pixels"} Kind what a lecture lets its class drag */
+/** @typedef {"move" | "turn" | "up" | "pixels"} Kind what a lecture lets its class drag */
 /**
  * @typedef {object} Handle
  * @property {string} name spoken @property {string} label shown @property {string} kind of its colour
@@ -16,7 +16,7 @@ import { cross, dot, length, normalized, plus, rotated, times } from "./vectors.
  */
 /** @typedef {{objects: [number, number], place: Vec, name: string}} Movable objects of the scene that are moved as one, and their middle */
 
-const KEY_PART = 0.05, LEAST_DISTANCE = 0.05, PARALLEL = 0.02, ARROW = 0.22;
+const KEY_PART = 0.05, PARALLEL = 0.02, ARROW = 0.22;
 const DIRECTIONS = /** @type {Record<string, [number, number]>} */ ({ ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] });
 
 /**
@@ -25,7 +25,7 @@ const DIRECTIONS = /** @type {Record<string, [number, number]>} */ ({ ArrowRight
  * @param {Vec} up @param {(fields: Partial<Camera>, up?: Vec) => void} change @returns {Handle[]}
  */
 export function cameraHandles(kind, camera, reach, up, change) {
-  const { eye, u, v, w, distance, viewport } = camera;
+  const { eye, u, v, w, viewport } = camera;
   if (kind === "move")
     return (/** @type {const} */ (["u", "v", "w"])).map((name) => {
       const axis = times(ARROW * reach, normalized(camera[name]));
@@ -44,14 +44,6 @@ export function cameraHandles(kind, camera, reach, up, change) {
         const turned = (one) => rotated(rotated(one, top, -x), right, y);
         change({ u: turned(u), v: turned(v), w: turned(w) });
       },
-    }];
-  }
-  if (kind === "distance") {
-    const axis = times(-ARROW * reach, normalized(w)), unit = length(axis) / length(w);
-    const middle = imagePlanePoint(camera, (viewport[0] + viewport[1]) / 2, (viewport[2] + viewport[3]) / 2);
-    return [{
-      name: "Distance of the frame", label: "d", kind: "basis w", value: distance, text: `d = ${numberText(distance)}`, at: middle, axes: [axis],
-      move: (part) => change({ distance: Math.max(distance + part * unit, LEAST_DISTANCE * distance) }),
     }];
   }
   if (kind === "up") {

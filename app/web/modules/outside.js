@@ -122,7 +122,6 @@ export function outsideView(first, scene, newRaster, parts, change, shifted) {
 function captionOf({ camera, size: [width, height] }, { handles }, fails) {
   const [left, right, bottom, top] = camera.viewport, { distance } = camera;
   if (fails) return `${TITLE}. up x w = 0: no u, no v`;
-  if (handles === "distance") return `${TITLE}. d = ${numberText(distance)}`;
   if (handles !== "pixels") return TITLE;
   const [x, y] = [width / (right - left), height / (top - bottom)], focal = [x * distance, y * distance].map((f) => numberText(f));
   return `${TITLE}. K: f = ${focal[0] === focal[1] ? focal[0] : `(${focal.join(", ")})`}, c = (${numberText(-left * x - 0.5)}, ${numberText(top * y - 0.5)}), from 0 at pixels' centres`;

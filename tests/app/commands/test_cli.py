@@ -13,7 +13,7 @@ import pytest
 
 from lucida import __version__
 from lucida.app.cli import main
-from lucida.app.commands import COMMANDS, WITHOUT_FILE, arguments, render, view
+from lucida.app.commands import COMMANDS, arguments, render, view
 from lucida.renderer.files import BUILTIN_SCENES
 from tests.support.refusals import refused
 
@@ -142,8 +142,8 @@ class TestMistakes:
             ("pick spheres 720 0", "ROW: 720 is outside an image of 1280x720; give 0 to 719"),
             ("pick spheres 0 9 --size 9x9", "COLUMN: 9 is outside an image of 9x9; give 0 to 8"),
             ("pick spheres 0 1 --from 1", "ROW: 0 is outside an image of 1280x720; give 1 to 720"),
-            ("scenes all", "scenes: takes no file; lucida scene all describes one"),
-            ("scenes --all", "unrecognized arguments: --all; see 'lucida scenes --help'"),
+            ("scenes all", "scenes: is no longer part of Lucida; `lucida scene` lists"),
+            ("doctor --some", "unrecognized arguments: --some; see 'lucida doctor --help'"),
             ("install-desktop here", "install-desktop: is no longer part of Lucida; start lucida"),
             ("camera a.json --undistort=out", "--undistort: is no longer part of Lucida; COLMAP's"),
             (
@@ -164,8 +164,8 @@ class TestMistakes:
             told = refused(capsys, word, "x.obj", "-o", "a b.png")
             assert told.startswith(f"'{word}' is neither a command nor a scene; ")
             close = re.search(r"did you mean lucida ([\w-]+)( x\.obj -o 'a b\.png')?\?", told)
-            assert close and close[1] in (name, "scene", "scenes")
-            assert bool(close[2]) == (name not in WITHOUT_FILE)
+            assert close and close[1] == name
+            assert close[2]
 
     def test_a_scene_s_name_that_is_like_no_command(self, monkeypatch, tmp_path):
         seen = []
@@ -220,7 +220,7 @@ class TestEnds:
         os.close(reading)
         try:
             end = run_python(
-                "-m", "lucida", "scenes", stdout=writing, stderr=subprocess.PIPE, cwd=ROOT
+                "-m", "lucida", "scene", stdout=writing, stderr=subprocess.PIPE, cwd=ROOT
             )
         finally:
             os.close(writing)
@@ -230,12 +230,10 @@ class TestEnds:
     @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="/dev/full is Linux's")
     def test_output_that_cannot_be_written(self):
         with open("/dev/full", "w") as full:
-            end = run_python(
-                "-m", "lucida", "scenes", stdout=full, stderr=subprocess.PIPE, cwd=ROOT
-            )
+            end = run_python("-m", "lucida", "scene", stdout=full, stderr=subprocess.PIPE, cwd=ROOT)
         assert end.returncode == 2
         assert re.fullmatch("lucida: [^\n]*space[^\n]*\n", end.stderr)
 
     def test_scenes_are_those_of_the_renderer(self, capsys):
-        assert main(["scenes"]) == 0
+        assert main(["scene"]) == 0
         assert tuple(capsys.readouterr().out.split()) == BUILTIN_SCENES

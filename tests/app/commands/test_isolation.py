@@ -97,7 +97,7 @@ def test_the_traps_work(tmp_path):
         "render scene.toml -o ray.png --renderer ray --size 32x32",
         "render models/large.obj -o raster.png --size 32x32",
         "compare spheres --size 32x32",
-        "scenes",
+        "scene",
         "lecture --check",
         "models/large.obj --screenshot window.png --size 640x480",
     ],
@@ -111,7 +111,7 @@ def test_python_m_lucida_leaves_the_current_folder_at_once(here, tmp_path):
     (tmp_path / "argparse.py").write_text(f"open({str(here.ran)!r}, 'a').write('argparse ')\n")
     folder, here.folder = here.folder, tmp_path
     try:
-        assert "spheres" in here.run("-m", "lucida", "scenes", safe=False)
+        assert "spheres" in here.run("-m", "lucida", "scene", safe=False)
     finally:
         here.folder = folder
 

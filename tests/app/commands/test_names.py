@@ -57,7 +57,6 @@ def test_commands_and_files(scene_file: str, name: str, capsys: pytest.CaptureFi
         ["scene", scene_file],
         ["page", scene_file, "-o", f"{name}.html"],
         ["export", scene_file, "-o", f"{name}.glb"],
-        ["render", scene_file, "-o", name, "--all", "--view", "poses.json", "--size", "8x8"],
         ["scene", f"{name}.glb"],
         ["camera", "poses.json#0"],
     ):
@@ -71,6 +70,3 @@ def test_commands_and_files(scene_file: str, name: str, capsys: pytest.CaptureFi
     assert data is not None and tuple(json.loads(data[1])["scene"]["names"]) == NAMES
     assert f"<title>{name}: Lucida</title>" in text
     assert file_stem(name) == name.replace("\u200c", "-")
-    assert [path.name for path in Path(name).iterdir() if path.suffix == ".png"] == [
-        f"{file_stem(name)}.png"
-    ]

@@ -58,7 +58,7 @@ class Interrupter:
             os.kill(os.getpid(), signal.SIGINT)
 sys.meta_path.insert(0, Interrupter())
 from lucida.__main__ import main
-sys.argv[1:] = ["scenes"]
+sys.argv[1:] = ["scene"]
 sys.exit(main())
 """
 
@@ -77,7 +77,7 @@ def test_ctrl_c_after_the_work_is_quiet(tmp_path):
 import os, signal, sys
 signal.signal(signal.SIGINT, signal.default_int_handler)
 from lucida.__main__ import main
-sys.argv[1:] = ["scenes"]
+sys.argv[1:] = ["scene"]
 status = main()
 os.kill(os.getpid(), signal.SIGINT)  # as while Python ends
 """
@@ -92,7 +92,7 @@ def test_where_ctrl_c_is_ignored_it_stays_so(tmp_path):
 import signal, sys
 from lucida.__main__ import main
 signal.signal(signal.SIGINT, signal.SIG_IGN)
-sys.argv[1:] = ["scenes"]
+sys.argv[1:] = ["scene"]
 main()
 sys.exit(signal.getsignal(signal.SIGINT) != signal.SIG_IGN)
 """

@@ -31,8 +31,8 @@ def student(tmp_path):
 def answer(student):
     """Return the answer of a file's function f, called once with arguments by name."""
 
-    def ask(source: str, vectorised: bool = False, /, **arguments):
-        run = student(source).call([called("f", vectorised, **arguments)])
+    def ask(source: str, /, **arguments):
+        run = student(source).call([called("f", **arguments)])
         assert run.failure is None, run.failure
         return run.values[0]
 

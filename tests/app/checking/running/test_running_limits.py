@@ -14,7 +14,7 @@ from students import called
 from waiting import wait_for
 
 from lucida.app.checking.running.file import FileStudent
-from lucida.app.checking.tasks import Failure, Limits
+from lucida.app.checking.tasks import Limits
 
 F = called("f")
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="Linux limits memory")
@@ -46,12 +46,8 @@ def test_a_call_that_never_ends(hasty, body):
     one = hasty(f"def f(i):\n    while i == 0: return i\n    {body}\n", output=500)
     run = one.call([called("f", i=0), called("f", i=2)])
     assert run.values == (0,)
-    assert run.failure == Failure(
-        "time",
-        "rays.py: the time limit of 0.5 s is over in call 2 of 2: f(i=2); "
-        "is each call slow, or a loop endless?",
-        call=1,
-    )
+    told = "is over in call 2 of 2: f(i=2); is each call slow, or a loop endless?"
+    assert (run.failure.kind, run.failure.call) == ("time", 1) and told in run.failure.text
     assert len(run.output) < 700
     one.limits = Limits(60)
     assert one.call([called("f", i=0)]).values == (0,)
@@ -85,14 +81,14 @@ def test_a_file_that_fills_the_disk_is_ended(student):
 @pytest.mark.parametrize(
     ("body", "told"),
     [
-        ("import os; os._exit(3)", "its process ended with exit status 3 in call 2 of 2"),
+        ("import os; os._exit(3)", "it ended with exit status 3 in call 2 of 2"),
         (
             "import os, signal; os.kill(os.getpid(), 9)",
-            "its process was ended by signal 9 (Killed)",
+            "it was ended by signal 9 (Killed)",
         ),
         (
             "import os; os.closerange(0, 99)\n    while True: pass",
-            "its process closed what it answers through",
+            "it closed what it answers through",
         ),
     ],
 )
@@ -111,7 +107,7 @@ def test_what_is_written_between_the_answers(student, where):
     write = "    for number in range(3, 30):\n        try: os.write(number, b'\\xff\\nzz\\n')"
     failure = student(f"import os\n{where}\n{write}\n        except OSError: pass\n").call([F])
     assert failure.failure.kind == "ended"
-    assert "its process wrote into a file of ours" in failure.failure.text
+    assert "it wrote into a file of ours" in failure.failure.text
 
 
 def test_all_that_is_printed_is_captured_in_its_order(student):
@@ -132,11 +128,10 @@ def test_all_that_is_printed_is_captured_in_its_order(student):
     assert one.call([]).output == ""
 
 
-def test_of_much_output_the_ends_are_kept(student):
+def test_of_much_output_the_end_is_kept(student):
     source = "def f():\n    print('first')\n    print('y' * 10**7)\n    print('last')\n"
     output = student(source, output=1000).call([F]).output
-    assert output.startswith("first\nyyy")
-    assert "y\n... 9,999,012 bytes left out ...\ny" in output
+    assert output.startswith("... 9,999,012 bytes left out ...\nyyy")
     assert output.endswith("yyy\nlast\n")
 
 
@@ -156,22 +151,6 @@ def test_closed_is_closed(student):
     one.close()
     one.close()
     assert one.call([F]).failure.text == "rays.py: it is closed"
-
-
-@LINUX
-def test_the_system_ends_it_if_lucida_cannot(student):
-    """Also a loop that lets no other thread run, once its parent was killed."""
-    source = "import resource\ndef f(): return resource.getrlimit(resource.RLIMIT_CPU)\n"
-    (limits,) = student(source, seconds=7).call([F]).values
-    assert limits == [7 * max(2, os.cpu_count() or 1) + 10] * 2
-
-
-def test_a_process_that_used_its_time_is_replaced(student):
-    one = student("import os, time\ndef f(s): time.sleep(s); return os.getpid()\n")
-    first, second = (one.call([called("f", s=s)]).values for s in (0.0, SHORT))
-    assert first == second
-    one.limits = dataclasses.replace(one.limits, seconds=SHORT)
-    assert one.call([called("f", s=0.0)]).values != first
 
 
 @LINUX

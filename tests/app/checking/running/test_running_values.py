@@ -102,7 +102,7 @@ def test_the_letters_of_the_book_name_the_same_fields(answer):
     asked = "def f(camera):\n    return [camera.e, camera.d] == [camera.eye, camera.distance]\n"
     assert answer(asked, camera=CAMERA)
     failure = answer("def f(camera):\n    return camera.e\n", camera={"distance": 2})
-    assert "Camera has no 'e'; it has: d or distance" in failure.text
+    assert "there is no 'e' in it; it has: d or distance" in failure.text
     assert failure.traceback[-2].strip() in ("return camera.e", "^^^^^^^^")  # none of our lines
 
 
@@ -129,22 +129,8 @@ def test_a_call_does_not_change_what_the_next_is_given(student):
     assert run.values == ([[1, 2, 3], 5, 1, 2, False],) * 3
 
 
-def test_vectorised_calls_get_arrays_of_their_own(student):
-    one = student(
-        """
-        def f(i, j, camera):
-            assert type(i).__module__ == "numpy" and i.dtype.kind == "i"
-            i += 1
-            return i * 10 + j, camera.eye
-        """
-    )
-    again = called("f", True, i=[0, 1], j=[2, 3], camera=CAMERA)
-    assert one.call([again, again]).values == ([[12, 23], [0.0, 0.0, 5.0]],) * 2
-
-
 def test_many_calls(student):
     one = student("def f(i, camera):\n    print(i)\n    return i, camera.eye\n", output=100)
     run = one.call([called("f", i=i, camera=CAMERA) for i in range(3072)])
     assert run.values == tuple([i, [0.0, 0.0, 5.0]] for i in range(3072))
-    assert run.output.startswith("0\n1\n2\n")
     assert run.output.endswith("3070\n3071\n")

@@ -15,13 +15,13 @@ from waiting import wait_for
 from lucida.app.checking.running.file import NotRunnableError
 from lucida.app.checking.tasks import Call, Failure, Limits, Run
 from lucida.app.checking.your_code import runs as runs_module
-from lucida.app.checking.your_code.model import CodeContent, CodeQuestion
+from lucida.app.checking.your_code.model import CodeQuestion
 from lucida.app.checking.your_code.runs import CodeRuns
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.system.errors import LucidaError
 
-QUESTION = CodeQuestion(CodeContent("rays.py"), "", Camera.canonical(), (4, 3))
-NEWER = replace(QUESTION, content=replace(QUESTION.content, version=2))
+QUESTION = CodeQuestion("rays.py", 1, Camera.canonical(), (4, 3))
+NEWER = replace(QUESTION, version=2)
 OTHER = replace(QUESTION, camera=replace(QUESTION.camera, distance=2.0))
 
 
@@ -30,7 +30,6 @@ class FakeStudent:
 
     def __init__(self, path: Path) -> None:
         self.path = path
-        self.files = ("vectors.py",)
         self.names = frozenset(("viewing_ray",))
         self.gate: threading.Event | None = None  # a run waits for it
         self.error: Exception | None = None
@@ -58,9 +57,6 @@ class FakeStudent:
 
     def answer(self, call: Call) -> Any:
         return right_ray(dict(call.arguments))
-
-    def restart(self) -> None:
-        pass
 
     def stop(self) -> None:
         self.ended.set()
@@ -107,29 +103,28 @@ def desk():
     one.runs.close()
 
 
-def test_the_camera_s_rays_come_first_then_the_tasks(desk):
+def test_the_camera_s_rays_come_first_then_other_cameras(desk):
     report = desk.told(QUESTION)
     assert report.question == QUESTION
     assert report.rays.result.status == "right"
-    assert report.chosen.name == "viewing-ray"
-    assert [task.name for task in report.tasks] == ["viewing-ray", "viewing-ray-parallel"]
     assert report.output == "printed"
-    assert report.results.keys() == {"viewing-ray", "viewing-ray-parallel"}
+    assert report.results.keys() == {"viewing-ray"}
     (student,) = desk.made
     assert student.path == Path("rays.py")
-    assert desk.runs.files == ("vectors.py",)
     assert len(student.runs[0]) == 12  # pixels of the canvas
-    assert len(student.runs) == 3
+    assert len(student.runs) == 2
 
 
 def test_the_same_question_is_asked_once(desk):
     desk.told(QUESTION)
     desk.told(QUESTION)
-    assert len(desk.made[0].runs) == 3
+    assert len(desk.made[0].runs) == 2
     other = desk.told(OTHER)
     assert other.rays.result.status == "right"
-    assert other.results.keys() == {"viewing-ray", "viewing-ray-parallel"}
-    assert len(desk.made[0].runs) == 4  # the tasks are tried once
+    assert len(desk.made[0].runs) == 3  # other cameras are tried once
+    parallel = replace(QUESTION, camera=replace(QUESTION.camera, projection="parallel"))
+    assert desk.told(parallel).results.keys() == {"viewing-ray", "viewing-ray-parallel"}
+    assert len(desk.made[0].runs) == 5
     assert len(desk.made) == 1
 
 
@@ -138,7 +133,14 @@ def test_a_saved_file_is_run_anew_in_another_process(desk):
     assert desk.told(NEWER).question == NEWER
     assert len(desk.made) == 2
     assert desk.made[0].closed
-    assert len(desk.made[1].runs) == 3
+    assert len(desk.made[1].runs) == 2
+
+
+def test_a_file_without_the_function_is_told_what_tries_the_others(desk):
+    desk.prepare = lambda student: setattr(student, "names", frozenset(("basis",)))
+    report = desk.told(QUESTION)
+    assert report.failure.text.startswith("it has no function viewing_ray; `lucida check`")
+    assert report.rays is None and not report.halted and not desk.made[0].runs
 
 
 def test_an_overtaken_run_is_ended_and_the_newest_answered(desk, monkeypatch):
@@ -163,37 +165,24 @@ def test_what_was_stopped_is_not_run_again_by_itself(desk):
     report = desk.told(QUESTION)
     assert report.rays.result.failure.text == "rays.py: was stopped"
     assert report.halted
-    assert not report.results  # nor the tasks
+    assert not report.results  # nor other cameras
     assert desk.told(OTHER).question == QUESTION
     assert len(desk.made[0].runs) == 1
     desk.prepare = lambda student: None
     assert desk.told(NEWER).rays.result.status == "right"
 
 
-@pytest.mark.parametrize("wish", [{"size": (2, 1)}, {"task": "viewing-ray-parallel"}])
-def test_fewer_pixels_or_another_task_run_a_file_that_took_too_long(desk, wish):
+def test_fewer_pixels_run_a_file_that_took_too_long(desk):
     def call(calls):
         if len(calls) > 2:
             return Run((), "", Failure("time", "the time limit is over", call=0))
         return Run(tuple(right_ray(dict(one.arguments)) for one in calls), "")
 
     desk.prepare = lambda student: setattr(student, "call", call)
-    assert desk.told(QUESTION).halted
-    assert desk.told(OTHER).question == QUESTION  # not for another camera
-    wished = replace(QUESTION, **wish)
-    report = desk.told(wished)
-    assert report.question == wished
-    assert report.halted is ("size" not in wish)
-
-
-def test_tasks_of_a_function_that_runs_endlessly_are_not_tried(desk):
-    def is_endless(student):
-        student.call = lambda calls: Run((), "", Failure("time", "the time limit is over", call=0))
-
-    desk.prepare = is_endless
     report = desk.told(QUESTION)
-    assert {result.failure.kind for result in report.results.values()} == {"time"}
-    assert report.halted
+    assert report.halted and not report.results  # it is not tried with other cameras
+    assert desk.told(OTHER).question == QUESTION  # not for another camera
+    assert not desk.told(replace(QUESTION, size=(2, 1))).halted
 
 
 @pytest.mark.parametrize(
@@ -225,18 +214,7 @@ def test_forgetting_ends_the_process(desk):
     assert desk.made[0].ended.is_set() and not desk.runs.busy
     assert desk.told(QUESTION).rays.result.status == "right"
     assert desk.made[0].closed and len(desk.made) == 2
-    assert len(desk.made[1].runs) == 3  # nothing of before is taken for an answer
-
-
-def test_a_slow_file_waits_until_the_camera_rests(desk, monkeypatch):
-    monkeypatch.setattr(runs_module, "REST_S", 0.0)  # each run is slow
-    desk.told(QUESTION)
-    monkeypatch.setattr(runs_module, "REST_S", 10_000.0)
-    desk.runs.report = replace(desk.runs.report, seconds=20_000.0)
-    desk.runs.follow(OTHER)
-    assert desk.runs.busy and desk.runs.running_s == 0
-    monkeypatch.setattr(runs_module, "REST_S", 0.0)
-    assert desk.told(OTHER).question == OTHER
+    assert len(desk.made[1].runs) == 2  # nothing of before is taken for an answer
 
 
 def test_wrong_rays_are_told_first_then_why(desk):

@@ -89,7 +89,7 @@ def test_a_python_file_is_never_read_as_a_scene(tmp_path: Path):
 def test_a_session_keeps_the_file_whatever_its_name(tmp_path: Path):
     path = os.fsdecode(b"/caf\xe9/rays.py") if sys.platform != "win32" else "C:\\rays.py"
     state = AppState.for_scene(load_scene("spheres"))
-    state = with_options(state, your_code={"file": stored(path), "canvas": (8, 6), "task": "basis"})
+    state = with_options(state, your_code={"file": stored(path), "canvas": (8, 6)})
     kept = from_bytes(to_bytes(session_of(state, Arrangement()))).options.your_code
     assert restored(kept.file) == path
     assert kept == replace(state.options.your_code)

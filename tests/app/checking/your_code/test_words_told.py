@@ -14,21 +14,19 @@ from lucida.app.checking.task_file import BUILTIN
 from lucida.app.checking.tasks import Failure, Run
 from lucida.app.checking.your_code.model import (
     RAY,
-    CodeContent,
     CodeQuestion,
     CodeReport,
     cases_for,
     rays_of,
 )
-from lucida.app.checking.your_code.words import told_of, verdict_of
+from lucida.app.checking.your_code.words import told_of
 from lucida.renderer.camera.camera import Camera
 
 SIZE = (4, 3)
 CAMERA = Camera.look_at((1.0, 2.0, 5.0), (0.0, 0.5, 0.0), aspect=4 / 3)
 TASK = next(task for task in BUILTIN if task.kind == RAY)
-PARALLEL = next(task for task in BUILTIN if task.projection == "parallel")
 RIGHT = TaskResult(TASK, "right", 379)
-QUESTION = CodeQuestion(CodeContent("rays.py"), "", CAMERA, SIZE)
+QUESTION = CodeQuestion("rays.py", 1, CAMERA, SIZE)
 
 
 def report(answer: Any = right_ray, run: Run | None = None, **changes: Any) -> CodeReport:
@@ -37,7 +35,7 @@ def report(answer: Any = right_ray, run: Run | None = None, **changes: Any) -> C
         calls = KINDS[RAY].calls(TASK, cases)
         run = Run(tuple(answer(dict(call.arguments)) for call in calls))
     rays = rays_of(TASK, SIZE, cases, run)
-    found = CodeReport(QUESTION, (TASK, PARALLEL), TASK, rays, {TASK.name: RIGHT})
+    found = CodeReport(QUESTION, rays, {TASK.name: RIGHT}, rays.result.failure, run.output)
     return replace(found, **changes)
 
 
@@ -57,7 +55,7 @@ def test_what_is_right_is_told_in_a_line_for_this_camera_and_the_others():
         "viewing-ray: correct in all of 379 cases.",
     ]
     assert {line.role for line in found} == {"good"}
-    assert "being tried" in texts(report(results={}))[-1]
+    assert texts(report(results={}))[-1] == "trying others ..."
 
 
 def test_wrong_rays_are_told_with_the_reason_of_the_task():
@@ -80,7 +78,7 @@ def test_the_marked_pixel_in_numbers():
 
 def test_an_exception_is_told_with_its_own_lines():
     failure = Failure("exception", "rays.py, line 3: ZeroDivisionError", ("File x", "1 / 0"))
-    found = told_of(report(run=Run((), "said\n", failure), output="said\n"), None)
+    found = told_of(report(run=Run((), "said\n", failure)), None)
     assert [(line.role, line.text) for line in found[:3]] == [
         ("bad", "rays.py, line 3: ZeroDivisionError"),
         ("code", "File x"),
@@ -91,18 +89,25 @@ def test_an_exception_is_told_with_its_own_lines():
 
 
 def test_a_file_that_answers_nothing():
-    failure = Failure("exception", "rays.py, line 2: SyntaxError", ("    x = (",))
+    failure = Failure(
+        "exception", "rays.py, line 2: SyntaxError", ("    x = (", "        ^", "Lost")
+    )
     found = CodeReport(QUESTION, failure=failure, output="before")
-    assert texts(found) == ["rays.py, line 2: SyntaxError", "    x = (", "printed:", "before"]
-    assert "none of the functions" in texts(CodeReport(QUESTION))[0]
+    lines = ["rays.py, line 2: SyntaxError", "    x = (", "Lost"]  # not the line of marks
+    assert texts(found) == [*lines, "printed:", "before"]
+    ended = CodeReport(QUESTION, failure=Failure("time", "the time limit is over"))
+    assert texts(ended)[1].startswith("It is not run again by itself: choose fewer pixels")
 
 
 def test_a_function_with_nothing_in_it_is_told_what_it_is_to_do():
     empty = report(lambda known: None)
     assert texts(empty)[0].startswith("viewing_ray returns nothing yet. The viewing ray of pixel")
-    failed = replace(RIGHT, status="failed", failure=Failure("answer", "returned None, not"))
-    other = CodeReport(QUESTION, (TASK,), TASK, results={TASK.name: failed})
-    assert texts(other)[0].startswith("viewing_ray returns nothing yet.")
-    assert verdict_of(other, TASK) == "empty"
-    assert verdict_of(other, PARALLEL) == ""
-    assert verdict_of(report(), TASK) == "correct"
+
+
+def test_a_ray_that_is_right_for_this_camera_alone():
+    wrong = replace(RIGHT, status="wrong", wrong=7, diagnosis=Diagnosis(("Read again: Rays.",)))
+    found = told_of(report(results={TASK.name: wrong}), None)
+    assert [line.text for line in found[:2]] == [
+        "Every ray is correct.",
+        "But not for every camera:",
+    ]

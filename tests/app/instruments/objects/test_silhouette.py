@@ -138,7 +138,7 @@ def test_on_the_screen_an_outline_has_nothing_of_its_object_on_one_side(height):
     mesh = Mesh(np.float32(torus.vertices), np.int32(torus.faces))
     camera = Camera.look_at((0, height, 3), (0, 0, 0), fov_y_deg=50)
     screen, size = OutsideScreen(camera, (480, 480)), (480, 480)
-    corners, _ = screen.spots(mesh.vertices.astype(float)[mesh.faces])
+    corners = screen.seen(mesh.vertices.astype(float)[mesh.faces]).points
     segments, layers = outline_of(SceneObject(mesh, Material()), camera)
     lines, _, numbers = screen.segments(segments)
     left, right = (covered(lines, corners, aside) for aside in (-1.5, 1.5))

@@ -26,8 +26,9 @@ from lucida.app.instruments.outside.figure import (
 from lucida.app.instruments.outside.frustum import pixel_corners, plane_corners
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
-from lucida.app.instruments.outside.svg import painted, svg
+from lucida.app.instruments.outside.svg import svg
 from lucida.app.state.options.outside import OutsideOptions
+from lucida.app.window.figures import painted
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene import shapes
 from lucida.renderer.scene.model import Scene, SceneObject, Sphere

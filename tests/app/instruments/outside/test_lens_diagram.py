@@ -12,10 +12,9 @@ from lucida.app.instruments.outside.diagram import Face, Label, RayEnd, Segments
 from lucida.app.instruments.outside.frustum import (
     CURVE,
     border,
-    has_plane,
     ideal_point,
     image_point,
-    ways,
+    meets_plane,
 )
 from lucida.app.instruments.outside.growing import grown_diagram
 from lucida.app.instruments.outside.lens_diagram import OUTSIDE
@@ -48,31 +47,29 @@ each = pytest.mark.parametrize("name", CAMERAS)
 
 
 @each
-def test_the_image_is_on_the_plane_if_all_rays_meet_it(name):
+def test_the_image_is_on_the_plane_which_rays_may_miss(name):
     lens, places = CAMERAS[name], border(CAMERAS[name])
-    assert has_plane(lens) == (name in FLAT)
-    here = image_point(lens, *places.T) - lens.eye
-    along = np.linalg.solve(lens.basis, here.T)
+    along = np.linalg.solve(lens.basis, (image_point(lens, *places.T) - lens.eye).T)
+    np.testing.assert_allclose(along[2], -lens.distance)
+    np.testing.assert_allclose(along[:2].T, places)
+    assert meets_plane(lens) == (name in FLAT)
     if name in FLAT:
-        np.testing.assert_allclose(along[2], -lens.distance)
-        np.testing.assert_allclose(along[:2].T, places)
-    else:
-        np.testing.assert_allclose(np.linalg.norm(along, axis=0), lens.distance)
-    ideal = ideal_point(lens, *places.T) - lens.eye
-    directions = ways(lens, *places.T) @ lens.basis.T
-    np.testing.assert_allclose(np.cross(ideal, directions), 0, atol=1e-12)
-    assert ((ideal * directions).sum(axis=1) > 0).all()
+        ideal = ideal_point(lens, *places.T) - lens.eye
+        np.testing.assert_allclose(np.linalg.solve(lens.basis, ideal.T)[2], -lens.distance)
+        directions = lens.direction(*places.T)
+        np.testing.assert_allclose(np.cross(ideal, directions), 0, atol=1e-12)
+        assert ((ideal * directions).sum(axis=1) > 0).all()
 
 
 @each
 def test_the_border_is_where_the_viewport_or_the_lens_ends(name):
     lens, places = CAMERAS[name], border(CAMERAS[name])
     left, right, bottom, top = lens.viewport
-    assert np.isfinite(ways(lens, *places.T)).all()
+    assert np.isfinite(lens.direction(*places.T)).all()
     on_frame = np.isclose(places, [[left, bottom]]) | np.isclose(places, [[right, top]])
     ends = ~on_frame.any(axis=1)
     assert ends.any() == (name == "circle")
-    assert np.isnan(ways(lens, *(1.001 * places[ends]).T)).all()
+    assert np.isnan(lens.direction(*(1.001 * places[ends]).T)).all()
 
 
 @each
@@ -83,7 +80,7 @@ def test_the_marked_ray_and_the_volume_are_the_lens_s(name):
     found = {item.name: item for item in items if isinstance(item, Segments)}
     origin, direction = lens.ray(*MARKED.pixel, SIZE)
     np.testing.assert_allclose(found["ray"].segments[0], [origin, origin + 3 * direction])
-    assert ("image plane" in found, "image sphere" in found) == (name in FLAT, name not in FLAT)
+    assert "image plane" in found
     ends = found["end"].segments[:, 0]
     t = np.linalg.norm(lens.project(ends, SIZE).parameter - 5.0)
     assert t < 1e-9

@@ -25,9 +25,8 @@ class TestScreen:
         screen = OutsideScreen(camera, SIZE)
         for point in np.random.default_rng(1).uniform(-1, 1, (20, 3)):
             row, column, parameter = camera.project(point, SIZE)
-            found = screen.spots(point)
-            assert found is not None
-            at, depth = found
+            _, at, depth, visible = screen.seen(point)
+            assert visible
             assert np.allclose(at, (column + 0.5, row + 0.5))
             assert np.isclose(depth, parameter if camera.is_parallel else 1 / parameter)
 
@@ -41,11 +40,12 @@ class TestScreen:
         assert (np.abs(points - np.array(SIZE) / 2) <= 4.001 * np.array(SIZE) / 2).all()
         assert (depth > 0).all()
         for segment, number in zip(points, numbers, strict=True):
-            inside = [screen.spots(end) for end in world[number]]
+            inside = [screen.seen(end) for end in world[number]]
             for end, spot in zip(segment, inside, strict=True):
-                if spot is not None:
-                    assert np.allclose(end, spot[0], atol=1e-6 * (1 + np.abs(spot[0]).max()))
-        seen = {k for k, pair in enumerate(world) if any(screen.spots(p) is not None for p in pair)}
+                if spot.visible:
+                    atol = 1e-6 * (1 + np.abs(spot.points).max())
+                    assert np.allclose(end, spot.points, atol=atol)
+        seen = {k for k, pair in enumerate(world) if screen.seen(pair).visible.any()}
         assert seen <= set(numbers.tolist())
 
     def test_what_comes_from_behind_is_cut_where_it_appears(self) -> None:
@@ -76,12 +76,12 @@ class TestScreen:
         start, end = np.array([0, 0, -1.0]), np.array([0.4, 0.9, -0.5])
         screen = OutsideScreen(camera, (640, 480))
         parts = project([Arrow("u", "u", start, end)], screen)
-        tip = screen.spots(end)
-        assert tip is not None
+        tip = screen.seen(end)
+        assert tip.visible
         heads = [p for p in parts if isinstance(p, Shape) and p.name == "u head"]
-        assert np.linalg.norm(heads[0].points - tip[0], axis=1).min() < 1e-6
+        assert np.linalg.norm(heads[0].points - tip.points, axis=1).min() < 1e-6
         (shaft,) = (p for p in parts if isinstance(p, Strokes) and p.name == "u")
-        assert np.linalg.norm(shaft.points[0, 1] - tip[0]) < 20
+        assert np.linalg.norm(shaft.points[0, 1] - tip.points) < 20
 
     def test_letters_stand_off_the_arrow_and_go_with_short_ones(self) -> None:
         screen = OutsideScreen(Camera.canonical(), (100, 100))

@@ -29,7 +29,7 @@ def _names(items: list[Item], kind: type) -> list[str]:
 
 
 def test_half_a_line_grows_from_p_by_d_to_all_t_above_0() -> None:
-    stages = [half_line(CAMERA, SIZE, PIXEL, grown, None) for grown in (0.0, 1, 2, 3, 4)]
+    stages = [half_line(CAMERA, SIZE, PIXEL, grown) for grown in (0.0, 1, 2, 3, 4)]
     assert stages[0] == []
     assert _names(stages[1], Arrow) == [] and _names(stages[2], Arrow) == ["d"]
     assert {"t = 1", "t = 2", "t = 3"} <= _texts(stages[3]) and "t < 0" not in _texts(stages[3])
@@ -37,12 +37,6 @@ def test_half_a_line_grows_from_p_by_d_to_all_t_above_0() -> None:
     assert behind.dashed and "t < 0" in _texts(stages[4])
     (second,) = (one for one in stages[3] if isinstance(one, Dot) and one.name == "t = 2")
     assert np.allclose(second.point, (0.3, 0.5, -2.0))
-
-
-def test_the_t_under_the_mouse_is_on_the_ray_only() -> None:
-    assert "t = 1.50" in _texts(half_line(CAMERA, SIZE, PIXEL, 4.0, 1.5))
-    assert "t = -0.50" in _texts(half_line(CAMERA, SIZE, PIXEL, 3.0, -0.5))
-    assert "t = -0.50" not in _texts(half_line(CAMERA, SIZE, PIXEL, 4.0, -0.5))
 
 
 def test_of_all_meetings_the_least_t_above_0_wins() -> None:

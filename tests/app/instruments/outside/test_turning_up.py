@@ -1,4 +1,4 @@
-"""The basis that follows from **up**, and where there is none; the handle of the image plane."""
+"""The basis that follows from **up**, and where there is none."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ import pytest
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Label
-from lucida.app.instruments.outside.frustum import plane_corners
-from lucida.app.instruments.outside.gizmo import distance_of, with_up
+from lucida.app.instruments.outside.gizmo import with_up
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
 
@@ -38,11 +37,3 @@ def test_up_along_w_has_no_basis(sign):
     upright = diagram(Content(CAMERA, (8, 8), OutsideOptions(target=(0, 0, 0)), 10.0))
     labels = {item.name for item in upright if isinstance(item, Label)}
     assert {"u", "v", "w", "up"} <= labels
-
-
-def test_the_plane_goes_through_the_point_that_its_handle_is_moved_to():
-    camera = Camera(eye=(1, 2, 3), w=(0.2, 0.1, 1.5), viewport=(-1, 2, -0.5, 0.7))
-    middle = plane_corners(camera).mean(axis=0) - 0.7 * np.array(camera.w)
-    moved = distance_of(camera, middle)
-    assert np.isclose(moved, camera.distance + 0.7)
-    assert distance_of(camera, np.array(camera.eye)) > 0

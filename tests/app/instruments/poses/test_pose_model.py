@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from sets_of_cameras import SIZE, a_set, ring
 
+from lucida.app.instruments.outside.extent import looked_from
 from lucida.app.instruments.outside.frustum import plane_corners
 from lucida.app.instruments.poses.model import (
     LINES,
     NO_POINTS,
     cloud,
     frusta,
-    looked_from,
     pose_set,
 )
 from lucida.app.state.app_state import AppState

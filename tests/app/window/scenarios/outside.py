@@ -197,22 +197,20 @@ def _watched():
     """Watch a dragged handle: the numbers of hidden vertices, and the colours."""
     hidden = []
     colors = set()
-    hide_text = outside_gizmo.hide_text
+    repaint = outside_gizmo.repaint
 
-    def counted(draw, first):
-        shadows = (outside_tint.vertex_colors(draw)[first:] == outside_tint.SHADOW).sum()
-        hide_text(draw, first)
+    def watched(draw, first, exchanged):
+        repaint(draw, first, exchanged)
         after = outside_tint.vertex_colors(draw)[first:]
-        assert (after == 0).sum() == 2 * shadows
-        hidden.append(int(shadows))
+        hidden.append(int((after == 0).sum()))
         if outside_gizmo.is_dragging():
             colors.update((after & 0xFFFFFF).tolist())
 
-    outside_gizmo.hide_text = counted
+    outside_gizmo.repaint = watched
     try:
         yield hidden, colors
     finally:
-        outside_gizmo.hide_text = hide_text
+        outside_gizmo.repaint = repaint
 
 
 def packed(red, green, blue):

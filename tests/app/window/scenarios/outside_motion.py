@@ -6,7 +6,7 @@ from outside_window import empty_place, enter, press, scope, view
 from window_driver import Key
 
 from lucida.app.cameras.travel import DURATION_S
-from lucida.app.instruments.outside.view import OUTSIDE
+from lucida.renderer.camera.camera import Camera
 
 
 def looks_from(d):
@@ -16,12 +16,14 @@ def looks_from(d):
     return back / np.linalg.norm(back)
 
 
-def drive_a_click_on_an_axis_turns_the_view_smoothly_as_one_step(d):
+def drive_the_view_turns_smoothly_as_one_step(d):
     enter(d)
     window, clock = d.window, Clock(d)
     start = looks_from(d)
     assert window.state.options.outside.camera is None
-    d.click(f"//###{OUTSIDE}/axis x##outside")
+    at = view(d).scope
+    beside = np.add(at.center, (4 * at.reach, 0, 0))
+    view(d).look(window, Camera.look_at(beside, at.center, fov_y_deg=50.0))
     d.until(lambda: window.motions.transition.under_way)
     inner, turned = window.state.view, []
     for part in (0.25, 0.5, 0.75):

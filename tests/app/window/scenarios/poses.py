@@ -1,16 +1,14 @@
-"""Sets of cameras and their photographs: opened, listed, walked, pointed at, framed, left."""
+"""Sets of cameras and their photographs: opened, listed, walked, framed, left."""
 
 import json
 
 import numpy as np
 from format_cameras import transforms_json
-from imgui_bundle import imgui
-from outside_window import place, scope, strokes
+from outside_window import strokes
 from outside_window import view as outside_view
 from PIL import Image
 from window_driver import RASTER, Key, changed
 
-from lucida.app.instruments.poses.model import frusta
 from lucida.app.instruments.poses.photographs import photo_path
 from lucida.app.instruments.poses.view import POSES, PosesView
 from lucida.app.state.paths import restored
@@ -106,7 +104,7 @@ def drive_a_set_is_dropped_closed_and_hidden(d):
     d.until(lambda: outside.extensions.cloud is not None)
 
 
-def drive_cameras_are_taken_by_click_key_and_double_click(d):
+def drive_cameras_are_taken_by_click_and_key(d):
     poses = opened(d, transforms(d))
     d.change(outside={"image": False, "grid": False})
     d.settle()
@@ -129,29 +127,11 @@ def drive_cameras_are_taken_by_click_key_and_double_click(d):
                         (HOME, 0), (UP, 0)):  # fmt: skip
         d.press(key)
         assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
-    at = scope(d)
-    d.click_at((at.origin.x + 12, at.origin.y + 0.5 * at.extent.y))
-    for key, wanted in ((Key.right_arrow, 1), (DOWN, 2), (Key.left_arrow, 1), (END, 11)):
-        d.press(key)
-        assert chosen(d) == wanted and stands_at(d, poses, wanted), (key, wanted)
     # Where the mouse rests on an image, they move the mark.
     d.change(marked=(5, 5))
     d.move_to(d.point(RASTER, 0.5, 0.5))
     d.press(DOWN)
-    assert d.state.marked == (6, 5) and chosen(d) == 11
-    frames = frusta(poses, poses.length).reshape(COUNT, -1, 2, 3)
-    for number in (2, 7):
-        spot = frames[number, 1].mean(axis=0)  # of an edge
-        d.move_to(place(d, spot))
-        assert view(d).hovered == number
-        assert strokes(d, "mark pose")
-        d.ctx.mouse_double_click(imgui.MouseButton_.left)
-        d.frames(3)
-        assert chosen(d) == number and stands_at(d, poses, number)
-        assert not d.options.objects.chosen  # of what lies behind it
-        d.settle()
-    d.move_to((3, 700))
-    assert view(d).hovered is None and not strokes(d, "mark pose")
+    assert d.state.marked == (6, 5) and chosen(d) == 0
 
 
 def drive_the_photograph_follows_the_set(d):

@@ -143,17 +143,17 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
     until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
     d.until(lambda: not its.busy)
     d.until(lambda: not (children() & processes))
-    version = view(d).report.question.content.version
+    version = view(d).report.question.version
     camera = d.state.camera
     d.window.change(d.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
     d.frames(10)
     assert not its.busy  # not by itself
-    assert view(d).report.question.content.version == version
+    assert view(d).report.question.version == version
     d.change(your_code={"canvas": (4, 3)})
     until_told(d, "Every ray is correct.")  # it has no fourth row
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
-    d.until(lambda: view(d).report.question.content.version > version)
+    d.until(lambda: view(d).report.question.version > version)
 
 
 def drive_nothing_runs_that_nobody_sees(d):

@@ -1,8 +1,7 @@
-"""`lucida render` of many pictures: a large image in parts, the cameras of a data set."""
+"""`lucida render` of a large image, in parts."""
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import numpy as np
@@ -12,13 +11,12 @@ from PIL import Image
 
 from lucida import Camera, LucidaError, Tracer, load_scene
 from lucida.app.cli import main
-from lucida.app.commands import render_many
+from lucida.app.commands import render_parts
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.images import picture
 from tests.support.refusals import refused
 
 SCENE, SIZE = load_scene("still-life"), (80, 100)
-VIEW = ("--view", "transforms.json", "--all", "--size", "24x16")
 
 
 @pytest.fixture
@@ -26,8 +24,8 @@ def render(tmp_path, monkeypatch, capsys):
     """Return a function that runs the command, for which 80 x 64 pixels are many."""
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("lucida.renderer.images.frame.LARGEST_PIXELS", 80 * 64)
-    monkeypatch.setattr(render_many, "LARGEST_PIXELS", 80 * 64)
-    monkeypatch.setattr(render_many, "PART_PIXELS", 80 * 32)
+    monkeypatch.setattr(render_parts, "LARGEST_PIXELS", 80 * 64)
+    monkeypatch.setattr(render_parts, "PART_PIXELS", 80 * 32)
 
     def run(*arguments):
         status = main(["render", "still-life", *arguments])
@@ -78,38 +76,6 @@ def test_a_large_image_is_that_of_its_parts(render):
     assert not list(Path().glob("*.frames"))
 
 
-@pytest.fixture
-def data_set(render):
-    poses = [np.eye(4), np.eye(4), np.eye(4)]
-    for number, pose in enumerate(poses):
-        pose[:3, 3] = 0.5 * number, 0.5, 6
-    names = "images/IMG 1.jpg", "images/b.jpg", "images/c.jpg"
-    frames = [
-        {"file_path": name, "transform_matrix": pose.tolist()}
-        for name, pose in zip(names, poses, strict=True)
-    ]
-    content = {"w": 48, "h": 32, "fl_x": 50, "fl_y": 50, "cx": 24, "cy": 16, "frames": frames}
-    Path("transforms.json").write_text(json.dumps(content))
-    return render
-
-
-def test_all_cameras_of_a_data_set(data_set):
-    status, out, _ = data_set("-o", "all", *VIEW[:3], "--renderer", "ray")
-    assert status == 0 and out.startswith("all: 3 images, color, ray, ")
-    assert sorted(path.name for path in Path("all").iterdir()) == [
-        "IMG 1.png",
-        "b.png",
-        "c.png",
-    ]
-    assert image("all/b.png").shape == (32, 48, 3)
-    one = ("--view", "transforms.json#1", "--renderer", "ray", "-o", "one.png")
-    assert data_set(*one)[0] == 0
-    assert np.array_equal(image("one.png"), image("all/b.png"))
-    assert data_set("-o", "exr", *VIEW, "--channel", "depth", "--format", ".exr")[0] == 0
-    with OpenEXR.File("exr/c.exr", separate_channels=True) as file:
-        assert file.channels()["Z"].pixels.shape == (16, 24)
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [
@@ -120,9 +86,8 @@ def test_all_cameras_of_a_data_set(data_set):
             "draws an image in parts, which .pfm cannot be",
         ),
         (("-o", "a.png", "--size", "20000x2"), "20000x2 is too large"),
-        (("-o", "a", "--all"), "has no cameras; give a data set by --view"),
-        (("-o", "a.png", "--format", ".exr"), "is for --all"),
+        (("-o", "a", "--all"), "--all: is no longer part of Lucida; `lucida render --view SET#1"),
     ],
 )
-def test_mistakes_with_many_pictures_cost_one_line(render, capsys, options, message):
+def test_mistakes_with_parts_cost_one_line(render, capsys, options, message):
     assert message in refused(capsys, "render", "still-life", *options)
