@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from datetime import UTC, datetime
 from typing import Any
 
 from lucida.renderer.system.errors import one_line, visible
@@ -76,7 +75,6 @@ def gradescope(
         "test_name_format": "text",
         "visibility": "visible",
         "stdout_visibility": "hidden",
-        "extra_data": {"lucida": "check", "time": datetime.now(UTC).isoformat(timespec="seconds")},
         "tests": [{**test, "number": str(number)} for number, test in enumerate(tests, 1)],
     }
 
@@ -85,7 +83,7 @@ def _test(result: TaskResult, text: str) -> dict[str, Any]:
     task, verdict = result.task, result.verdict
     if result.printed:
         text += "\n\n" * bool(text) + f"Printed:\n{result.printed[:OUTPUT_LETTERS]}"
-    test = {
+    return {
         "name": f"{task.name}: {signature(task)}",
         "max_score": task.points,
         "score": result.points,
@@ -93,20 +91,3 @@ def _test(result: TaskResult, text: str) -> dict[str, Any]:
         "output": text or ("Correct." if verdict == "right" else ""),
         "visibility": "hidden" if verdict is None else "visible",
     }
-    mistakes = _mistakes(result)
-    return {**test, "extra_data": {"mistakes": mistakes}} if mistakes else test
-
-
-def _mistakes(result: TaskResult) -> list[dict[str, str]]:
-    """Return the likeliest mistakes by name, as results.py reads them; without a name, the first
-    sentence.
-    """
-    found = result.diagnosis
-    if found is None:
-        return []
-    if not found.candidates:
-        return [{"mistake": text, "reply": text} for text in found.sentences[:1]]
-    return [
-        {"mistake": mistake.name, "reply": mistake.hint, "read": mistake.part}
-        for mistake in found.candidates[0]
-    ]

@@ -49,7 +49,7 @@ examples:
   lucida lecture --export lecture.html
   lucida lecture --export handout.pdf --no-answers
   lucida lecture --answers answers.jsonl
-  lucida lecture --results answers.jsonl results.json -o class.html
+  lucida lecture --results answers.jsonl -o class.html
 
 exit status: 0 done, 2 a mistake (one line says file, line and field), 130 interrupted"""
 
@@ -80,7 +80,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--results",
         metavar="FILE",
         nargs="+",
-        help="write a page (-o) of a class's mistakes, from --answers or check --json",
+        help="write a page (-o) of a class's mistakes, from --answers",
     )
     parser.add_argument(
         "--step",
@@ -136,11 +136,7 @@ def run(arguments: argparse.Namespace) -> int:
         agreed = arguments.check or arguments.outside or arguments.results is not None
         lecture = load_lecture(path, None if agreed else frozenset())
     except OutsideError as error:
-        if arguments.export is not None or arguments.answers is not None:
-            raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
-        from lucida.app.window.lecturing import ask_lecture
-
-        return ask_lecture(path, error, arguments.size)
+        raise LucidaError("", error.problem, "add --outside to agree", error.source) from None
     for note in lecture.notes if arguments.check else lecture.summary:
         print(f"lucida: {one_line(note)}", file=sys.stderr)
     if arguments.check:
@@ -203,12 +199,12 @@ def _export_page(arguments: argparse.Namespace, lecture: Lecture, path: Path) ->
 
 def _results(arguments: argparse.Namespace, lecture: Lecture) -> int:
     """Write a page about a class's answers."""
-    from lucida.app.checking.results import page, read_answers, summary
+    from lucida.app.lecture.results import page, read_answers, summary
     from lucida.renderer.system.atomic import atomic_write
 
     answers, problems = read_answers(arguments.results)
     if not answers:
-        remedy = "give files of lucida lecture --answers, or of lucida check --json"
+        remedy = "give files of lucida lecture --answers"
         raise LucidaError("--results", "; ".join(problems) or "have no answers", remedy)
     for problem in problems:
         print(f"lucida: {problem}", file=sys.stderr)

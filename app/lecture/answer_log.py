@@ -1,6 +1,6 @@
 """The answers of a sitting, kept on disk if the user asks for it: one JSON object a line.
 
-docs/lectures.md describes the format; app/checking/results.py reads it.
+docs/lectures.md describes the format; results.py reads it.
 """
 
 from __future__ import annotations

@@ -1,20 +1,14 @@
 """The file of the window's layout.
 
 settings_file() finds its place and checks that it is usable. A settings file never keeps the window
-from
-opening: without a readable or writable one, there is none.
+from opening: without a readable or writable one, there is none.
 """
 
 from __future__ import annotations
 
-import contextlib
 import os
 import re
-from collections.abc import Iterator
 from pathlib import Path
-
-from lucida.renderer.system.atomic import atomic_write
-from lucida.renderer.system.errors import LucidaError
 
 SMALLEST_PX, LARGEST_PX = 64, 16384  # plausible sides of a window
 LARGEST_BYTES = 1 << 20
@@ -42,23 +36,6 @@ def settings_file(fresh: bool = False) -> Path | None:
         return path
     except (OSError, RuntimeError):  # RuntimeError: there is no home
         return None
-
-
-@contextlib.contextmanager
-def kept_whole(path: Path | None) -> Iterator[None]:
-    """Restore a settings file if the window leaves an unusable one behind: it does not check that
-    the disk has room.
-    """
-    before = path.read_bytes() if path is not None and path.is_file() else None
-    try:
-        yield
-    finally:
-        if path is not None and path.is_file() and not _is_sane(path):
-            with contextlib.suppress(OSError, LucidaError):
-                path.unlink()
-                if before is not None:
-                    with atomic_write(path) as file:
-                        file.write(before)
 
 
 def _is_sane(path: Path) -> bool:

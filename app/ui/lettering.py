@@ -32,20 +32,6 @@ def underline(color: ImVec4) -> None:
     draw.add_line((low.x, high.y), (high.x, high.y), theme.u32(color), theme.px(1.5))
 
 
-def fitting_letters(text: str, width_px: float) -> str:
-    """Return the text, or as many of its first letters as fit, in the current font: for names,
-    which users choose.
-    """
-    if imgui.calc_text_size(text).x <= width_px:
-        return text
-    low, high = 0, len(text)  # so many fit; so many do not
-    while high - low > 1:
-        middle = (low + high) // 2
-        fits = imgui.calc_text_size(text[:middle] + "...").x <= width_px
-        low, high = (middle, high) if fits else (low, middle)
-    return text[:low] + "..."
-
-
 def fitting_words(text: str, width_px: float) -> str:
     """Return the text if it fits, in the current font; else its longest beginning that ends at a
     comma or semicolon and fits; else as many of its first words as fit.

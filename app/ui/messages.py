@@ -52,9 +52,9 @@ def box_width(most_em: float, part: float) -> float:
     return min(most_em * imgui.get_font_size(), part * imgui.get_main_viewport().work_size.x)
 
 
-def wrapped(text: str, color: ImVec4 | None = None) -> None:
-    """Draw a text in as many lines as it needs."""
-    imgui.push_text_wrap_pos(0.0)
+def wrapped(text: str, color: ImVec4 | None = None, width: float = 0.0) -> None:
+    """Draw a text in as many lines as it needs. width: 0 for all of the room."""
+    imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width if width else 0.0)
     imgui.text_colored(theme.TEXT if color is None else color, text)
     imgui.pop_text_wrap_pos()
 

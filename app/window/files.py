@@ -80,7 +80,6 @@ class Files:
         self._source = ""
         self._again: Callable[[frozenset[Path]], None] = lambda more: None  # loads with consent
         self._began_s = 0.0
-        self._is_first = False
         self.dialog = FileDialog()
         self.recent = RecentFiles(folder)
         self.message = ""
@@ -114,16 +113,6 @@ class Files:
         """
         if sources:
             self._load(sources[0], lambda agreed: open_sources(sources, dropped, agreed))
-
-    def open_later(self, source: str, load: Callable[[], Opened]) -> None:
-        """Load what the window begins with. load: called in the background."""
-        self._load(source, lambda _: load())
-        self._is_first = True
-
-    @property
-    def awaits_first(self) -> bool:
-        """True while the window's first scene is still being loaded."""
-        return self._is_first and self._loading.busy
 
     def follow(self, scene: Scene) -> bool:
         """Read the shown scene again if its files were saved. Call once a frame; poll() has the
@@ -274,7 +263,7 @@ class Files:
 
     def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
         self.cancel()  # the newest wins, and does not wait for what takes long
-        self.message, self.question, self._is_first = "", None, False
+        self.message, self.question = "", None
         self._again = lambda more: self._load(source, load, agreed | more)
         self._source = one_line(Path(source).name)
         self._began_s = time.monotonic()

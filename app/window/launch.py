@@ -62,14 +62,12 @@ def run_viewer(
     goes_on = scene_source is None and view is None and change is None and screenshot is None
     if screenshot is not None:
         check_writable(screenshot)
-    start = None if goes_on else begin_scene(scene_source, view, change, screenshot is not None)
+    start = None if goes_on else begin_scene(scene_source, view, change)
     platform, picture = start_drawing(screenshot, "the window")
     if start is None:
         start = begin_session(fresh) if picture is None else begin_scene()
     elif picture is None:
         start = kept(start, fresh)
-    elif start.later is not None:
-        start = begin_scene(scene_source, view, change, wait=True)
     if resolution is not None:
         start = replace(start, state=with_resolution(start.state, resolution))
     if code:

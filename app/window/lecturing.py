@@ -18,7 +18,6 @@ from lucida.app.lecture.model import Lecture, Step
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Theme
 from lucida.app.ui.surface import Target
-from lucida.renderer.files.outside import OutsideError
 from lucida.renderer.system.atomic import check_writable
 from lucida.renderer.system.errors import LucidaError
 
@@ -26,7 +25,7 @@ from .capture import cut
 from .launch import start_drawing
 from .main_window import MainWindow
 from .platform import start_platform
-from .start import Start, begin_lecture, begin_scene, first_state
+from .start import Start, begin_lecture, first_state
 from .viewer import SCREENSHOT_LIMIT_S, WindowRun, save_png
 
 if TYPE_CHECKING:
@@ -59,20 +58,6 @@ def run_lecture(
     if not pictured:
         print("The lecture starts in presentation mode: F9 turns that off and on.")
     return run.to_the_end(picture, tell=True)
-
-
-def ask_lecture(path: Path, error: OutsideError, size: tuple[int, int] | None = None) -> int:
-    """Open the window and ask whether the lecture may read the files outside its folder.
-
-    error: names them. Raised if there is no display to ask on.
-    """
-    platform = start_platform()
-    if not platform.has_display:
-        raise LucidaError("", error.problem, "add --outside to agree", error.source)
-    start = begin_scene()
-    run = WindowRun(platform, start.state, size, start=start)
-    run.window.files.open_lecture(str(path))
-    return run.to_the_end(None)
 
 
 def export_lecture(

@@ -26,7 +26,7 @@ from lucida.renderer.system.errors import LucidaError, describe
 from .kinds import found_code, kind_of
 
 T = TypeVar("T")
-Use = Literal["open", "first", "newer", "add"]
+Use = Literal["open", "newer", "add"]
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,8 @@ class OpenedScene:
     prepared: for the rasterizer, so that no frame has to prepare it; None if that fails, which
     drawing reports. agreed: the files outside its folder that a scene which came by itself may
     read; None if the user named it.
-    use: "open" it in place of the present one; as the "first" scene of the window, without an undo
-    step; "newer": as a version of the present one, if that is still a version of `replaces`; "add"
-    its model to the present one.
+    use: "open" it in place of the present one; "newer": as a version of the present one, if that is
+    still a version of `replaces`; "add" its model to the present one.
     """
 
     scene: Scene
@@ -184,12 +183,6 @@ def reread(source: str, scene: Scene, agreed: frozenset[Path] | None) -> Opened:
     """Return a newer version of a scene whose files have changed. agreed: as in OpenedScene."""
     newer = _open_scene(source, agreed, "newer")
     return Opened((replace(newer, replaces=scene),))
-
-
-def first_scene(source: str, scene: Scene, view: View) -> Opened:
-    """Return a source's scene, seen by a view, as the first one of a window."""
-    opened = OpenedScene(scene, _prepared(scene), use="first")
-    return Opened((opened, OpenedView(view)), (source,))
 
 
 def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:

@@ -12,7 +12,6 @@ import sys
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 
 from lucida.app.state.session import LARGEST_BYTES, NewerVersionError, Session, from_bytes, to_bytes
@@ -21,26 +20,12 @@ from lucida.renderer.files.reading import read_file
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
 
+from .capture import free_path
+
 MOST_WINDOWS = 16
 QUIET_S = 2.0  # after the last change, before a session is saved
 LONGEST_S = 10.0  # while changes go on
 LAST_S = 5.0  # at the end, for what is being saved
-
-
-@dataclass(frozen=True)
-class Found:
-    """The start of a window.
-
-    session: None to start afresh.
-    message: for the user; empty if there was nothing to restore, or all was well.
-    """
-
-    session: Session | None = None
-    message: str = ""
-
-
-class _TooLateError(Exception):
-    """A newer session has been saved meanwhile."""
 
 
 class SessionFile:
@@ -49,59 +34,48 @@ class SessionFile:
     def __init__(self, path: Path, lock: int) -> None:
         self.path = path
         self._lock = lock
-        self._order = threading.Lock()
-        self._begun = self._saved = 0  # numbers of saves
+        self._saving = threading.Lock()
 
-    def load(self) -> Found:
-        """Return the session that was left here. An unusable one is kept aside and reported."""
+    def load(self) -> tuple[Session | None, str]:
+        """Return the session that was left here, and a message for the user. An unusable one is
+        kept aside.
+        """
         if not self.path.exists():
-            return Found()
+            return None, ""
         try:
             session = from_bytes(read_file(self.path, LARGEST_BYTES), str(self.path))
-            return Found(session, "\n".join(session.notes))
+            return session, "\n".join(session.notes)
         except LucidaError as error:
             ending = "newer" if isinstance(error, NewerVersionError) else "broken"
             kept = self.put_aside(ending)
             where = f" It is kept as {kept}." if kept else ""
-            return Found(None, f"The last session could not be restored. {error}.{where}")
+            return None, f"The last session could not be restored. {error}.{where}"
 
     def save(self, data: bytes) -> None:
-        """Replace the file, unless a save that began later, in another thread, has replaced it, or
-        the place was released. Raise LucidaError; the old file then stays."""
-        with self._order:
-            self._begun += 1
-            number = self._begun
-        with (
-            contextlib.suppress(_TooLateError),
-            contextlib.ExitStack() as held,
-            atomic_write(self.path) as file,
-        ):
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())  # this may take long: before the lock
-            held.enter_context(self._order)
-            if number < self._saved:
-                raise _TooLateError
-            self._saved = number
+        """Replace the file, unless the place was released. Raise LucidaError; the old file then
+        stays.
+        """
+        with self._saving:
+            if self._lock >= 0:
+                with atomic_write(self.path) as file:
+                    file.write(data)
 
     def release(self) -> None:
-        with self._order:
-            self._saved = sys.maxsize
-        if self._lock >= 0:
-            os.close(self._lock)
-            self._lock = -1
+        with self._saving:
+            if self._lock >= 0:
+                os.close(self._lock)
+                self._lock = -1
 
     def put_aside(self, ending: str) -> Path | None:
         """Move the file to a free name, so that nothing set aside is lost. Return that name, or
-        None if this fails."""
-        for number in range(1, 1000):
-            target = self.path.with_suffix(f".{ending}-{number}.json")
-            if not target.exists():
-                with contextlib.suppress(OSError):
-                    self.path.rename(target)
-                    return target
-                return None
-        return None
+        None if this fails.
+        """
+        target = free_path(self.path.with_suffix(f".{ending}.json"))
+        try:
+            self.path.rename(target)
+        except OSError:
+            return None
+        return target
 
 
 def take_place(folder: Path | None = None) -> SessionFile | None:
@@ -183,13 +157,11 @@ class Keeper:
         if data != self._saved:
             self._saving.submit(lambda: self._write(data))
 
-    def close(self, session: Session | None) -> None:
-        """Save at once, and release the place. None: what was saved last stays."""
+    def close(self, session: Session) -> None:
+        """Save at once, and release the place."""
         self._saving.close(LAST_S)
-        data = to_bytes(session) if session is not None else self._saved
         with contextlib.suppress(LucidaError):
-            if data is not None and data != self._saved:
-                self._place.save(data)
+            self._place.save(to_bytes(session))
         self._place.release()
 
     def _write(self, data: bytes) -> bytes:

@@ -168,14 +168,12 @@ class Shell:
         """Save the session, once, at the end. keeps_edits: with the scene's unsaved changes."""
         if self._keeper is not None:
             session = self._session(window)
-            if session is not None and not keeps_edits:
+            if not keeps_edits:
                 session = replace(session, unsaved="")
             self._keeper.close(session)
 
-    def _session(self, window: Host) -> Session | None:
-        """Return what to keep; None until the window's first scene is there."""
-        if self.files.awaits_first:
-            return None
+    def _session(self, window: Host) -> Session:
+        """Return what to keep."""
         state = window.present
         lecture = window.view(LectureView).kept(state)
         return session_of(state, self.stage.arrangement(), lecture)
@@ -232,5 +230,5 @@ class Shell:
         if state is not self._kept or io.want_save_ini_settings or answered:
             self._kept, io.want_save_ini_settings = state, False
             keeper.mark()
-        if keeper.due() and (session := self._session(window)) is not None:
-            keeper.save(session)
+        if keeper.due():
+            keeper.save(self._session(window))

@@ -1,8 +1,5 @@
 """The window's beginning: a scene of the command line's, a lecture, the last session, or the
 default scene.
-
-No window waits for a large model: it begins without, and reads that while its first frames are
-drawn.
 """
 
 from __future__ import annotations
@@ -22,34 +19,15 @@ from lucida.app.state.kept_lecture import KeptLecture
 from lucida.app.state.options import Options
 from lucida.app.state.session import Session
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
-from lucida.renderer.files.models.models import ModelFile, read_by, read_model
-from lucida.renderer.scene import Scene, View
+from lucida.renderer.scene import View
 from lucida.renderer.system.atomic import atomic_write
-from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.errors import LucidaError
 
 from .capture import free_path
-from .opening import Opened, first_scene
 from .session_store import Keeper, SessionFile, take_place
 
 ChangeView = Callable[[View], View]
-LARGE_BYTES = 1 << 20  # a model of this size delays the first frame
 UNKEPT = "This session will not be kept: the settings folder cannot be written to."
-
-
-@dataclass(frozen=True)
-class Later:
-    """A scene that takes long to read. view: returns the view of it."""
-
-    source: str
-    view: ChangeView
-
-    def open(self) -> Opened:
-        """Read the scene. Errors are reported, and the window keeps the scene it began with."""
-        try:
-            scene = load_scene(self.source)
-            return first_scene(self.source, scene, self.view(scene.view))
-        except LucidaError as error:
-            return Opened(problems=(describe(error),))
 
 
 @dataclass(frozen=True)
@@ -57,11 +35,10 @@ class Start:
     """The window's beginning.
 
     session: the one to go on with, None for none. keeper: saves it. message: for the user. opened:
-    a scene for the recent files. later: replaces the state's scene as soon as it is read. lecture:
-    the one to go on with. fresh: begin as on the first day, without the layout of an earlier
-    window. left: the last session's lecture. code: the absolute path of a student's Python file,
-    which is run. poses: a set of cameras to show. unsaved: a scene file with the changes that
-    the last session has not saved.
+    a scene for the recent files. lecture: the one to go on with. fresh: begin as on the first day,
+    without the layout of an earlier window. left: the last session's lecture. code: the absolute
+    path of a student's Python file, which is run. poses: a set of cameras to show. unsaved: a scene
+    file with the changes that the last session has not saved.
     """
 
     state: AppState
@@ -69,7 +46,6 @@ class Start:
     keeper: Keeper | None = None
     message: str = ""
     opened: str = ""
-    later: Later | None = None
     lecture: LectureSession | None = None
     left: KeptLecture | None = None
     fresh: bool = False
@@ -82,26 +58,15 @@ def begin_scene(
     source: str | None = None,
     view: View | None = None,
     change: ChangeView | None = None,
-    wait: bool = False,
 ) -> Start:
     """Begin with a scene, the default one if none is given.
 
-    view: used in place of the scene's own. change: applied to the view. wait: read a large model at
-    once, too. Raises LucidaError.
+    view: used in place of the scene's own. change: applied to the view. Raises LucidaError.
     """
-
-    def seen_by(own: View) -> View:
-        own = view or own
-        return own if change is None else change(own)
-
-    named = source or BUILTIN_SCENES[0]
-    scene = load_scene(named) if wait else _soon(lambda: load_scene(named))
-    if scene is None:
-        assert source is not None  # what is built in has no large models
-        return Start(
-            AppState.for_scene(load_scene(BUILTIN_SCENES[0])), later=Later(source, seen_by)
-        )
-    return Start(AppState.for_scene(scene, seen_by(scene.view)), opened=source or "")
+    scene = load_scene(source or BUILTIN_SCENES[0])
+    view = view or scene.view
+    view = view if change is None else change(view)
+    return Start(AppState.for_scene(scene, view), opened=source or "")
 
 
 def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
@@ -116,13 +81,12 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
     if place is None:
         return replace(begin_scene(), message=UNKEPT)
     keeper = Keeper(place, hello_imgui.request_refresh)
-    found = place.load()
-    session = found.session
+    session, told = place.load()
     if session is None:
-        return replace(begin_scene(), keeper=keeper, message=found.message)
+        return replace(begin_scene(), keeper=keeper, message=told)
     lecture, message = _lecture(session.lecture)
     start = _gone_on(session, lecture)
-    both = "\n".join(said for said in (message, start.message) if said)
+    both = "\n".join(said for said in (told, message, start.message) if said)
     unsaved = _rescued(session, place)
     return replace(start, keeper=keeper, lecture=lecture, message=both, unsaved=unsaved)
 
@@ -160,9 +124,8 @@ def _in_place(start: Start, folder: Path | None) -> tuple[Options, Start]:
     place = take_place(folder)
     if place is None:
         return Options(), replace(start, message=UNKEPT)
-    found = place.load()
-    start = replace(start, keeper=Keeper(place, hello_imgui.request_refresh), message=found.message)
-    session = found.session
+    session, told = place.load()
+    start = replace(start, keeper=Keeper(place, hello_imgui.request_refresh), message=told)
     if session is None:
         return Options(), start
     return session.options, replace(start, left=session.lecture, unsaved=_rescued(session, place))
@@ -218,54 +181,14 @@ def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
 
 
 def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
-    """Go on with the session's scene, or with the default one if that cannot be read, or not
-    yet.
-    """
+    """Go on with the session's scene, or with the default one if that cannot be read."""
     step = lecture if session.lecture is not None and session.lecture.in_step else None
     if step is not None:
         return Start(replace(session.state(step.step.scene), step=step.place), session)
-
-    message = ""
     try:
-        scene = _soon(lambda: load_scene(session.source))
+        return Start(session.state(load_scene(session.source)), session)
     except LucidaError as error:
-        scene, message = None, f"The last session's scene could not be opened. {error}"
-    if scene is not None:
-        return Start(session.state(scene), session)
-    view = session.view
-    later = None if message else Later(session.source, lambda _: view)
+        message = f"The last session's scene could not be opened. {error}"
     default = load_scene(BUILTIN_SCENES[0])  # of which the session's camera may see nothing
     state = replace(session.state(default), view=default.view)
-    return Start(state, session, message=message, later=later)
-
-
-def is_large(path: Path) -> bool:
-    """Return True if reading a model takes long. False if it is no file, which is reported
-    elsewhere.
-    """
-    try:
-        size_bytes = path.stat().st_size
-        if path.suffix.lower() == ".gltf":  # its numbers are in files next to it
-            size_bytes += sum(file.stat().st_size for file in path.parent.glob("*.bin"))
-    except (OSError, ValueError):
-        return False
-    return size_bytes >= LARGE_BYTES
-
-
-class _LargeModelError(Exception):
-    pass
-
-
-def _soon(load: Callable[[], Scene]) -> Scene | None:
-    """Return a scene; None if it has a large model, which takes long. Raises LucidaError."""
-
-    def read(path: Path) -> ModelFile:
-        if is_large(path):
-            raise _LargeModelError
-        return read_model(path)
-
-    try:
-        with read_by(read):
-            return load()
-    except _LargeModelError:
-        return None
+    return Start(state, session, message=message)

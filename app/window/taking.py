@@ -90,11 +90,7 @@ def _take_scene(window: Taker, opened: OpenedScene, view: View | None) -> None:
         return  # another one is shown meanwhile
     if opened.prepared is not None and textures is not None:
         textures.rasterizer.prepare(scene, opened.prepared)
-    if opened.use == "first":
-        first = state.with_scene(scene, view)
-        kept = state.keep_orthonormal and first.keep_orthonormal
-        window.amend(replace(first, keep_orthonormal=kept))
-    elif opened.use == "newer":
+    if opened.use == "newer":
         old = state.scene  # which may have been edited while its file was read
         if is_unsaved(old):
             window.files.ask(

@@ -19,7 +19,7 @@ from lucida.app.instruments.poses.view import PosesView
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import is_unicode
 from lucida.app.state.session import source_of
-from lucida.app.state.settings import kept_whole, settings_file
+from lucida.app.state.settings import settings_file
 from lucida.app.ui import layout, theme
 from lucida.app.ui.focus_frame import FocusFrame
 from lucida.app.ui.focusing import Focusing
@@ -113,8 +113,7 @@ class WindowRun:
         sys.setswitchinterval(SWITCH_INTERVAL_S)
         self._start_s = time.monotonic()
         try:
-            ini = None if self.params.ini_disable else Path(self.params.ini_filename)
-            with ended_by_signals(self._end), kept_whole(ini):
+            with ended_by_signals(self._end):
                 _run(self.params)
         except Exception as error:  # often ImGui's complaint about the window that was left
             self._error = self._error or error
@@ -147,8 +146,6 @@ class WindowRun:
         self.window.files.message = start.message
         if start.opened and start.opened not in SCENE_NAMES:
             self.window.files.recent.add(str(Path(start.opened).absolute()))
-        if start.later is not None:
-            self.window.files.open_later(start.later.source, start.later.open)
         if start.unsaved is not None:
             path, files = str(start.unsaved), self.window.files
             files.ask(f"{UNSAVED} {path}.", {RESTORE: lambda: files.open(path)})

@@ -19,9 +19,9 @@ from lucida.app.state.options.mistakes import MistakesOptions
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.checks import checkbox
-from lucida.app.ui.coded_text import coded_text
 from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument, view_of
+from lucida.app.ui.messages import wrapped
 from lucida.app.ui.picture_grid import GridPicture, picture_grid
 from lucida.app.ui.rows import button_width, follow
 from lucida.app.ui.uploads import Uploads
@@ -93,9 +93,8 @@ class MistakesView(Instrument):
         )
         if host.has_tools:
             self._controls(host)
-        width = imgui.get_content_region_avail().x
         for problem in self._problems(host.state.options.mistakes):
-            coded_text(problem, width, theme.ERROR, host.fonts)
+            wrapped(problem, theme.ERROR)
         room = imgui.get_content_region_avail()
         if imgui.begin_child("page", room, imgui.ChildFlags_.nav_flattened):
             # Always leave room for the scrollbar: otherwise it could appear and disappear in turn.
@@ -140,8 +139,7 @@ class MistakesView(Instrument):
         width = TEXT_PART * room.x if is_wide else room.x
         clicked = panel.program_lines(program, mistakes, width, host.fonts)
         for one in mistakes:
-            told = f"{one.hint} (lecture: {one.part})"
-            coded_text(told, width, theme.TEXT, host.fonts)
+            wrapped(f"{one.hint} (lecture: {one.part})", width=width)
         if is_wide:
             left = width + GAP_EM * imgui.get_font_size()
             imgui.set_cursor_screen_pos(ImVec2(corner.x + left, corner.y))

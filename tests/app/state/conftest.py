@@ -5,6 +5,7 @@ from option_changes import with_options
 
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Bookmark
+from lucida.app.state.session import Arrangement, session_of
 from lucida.app.window.start import begin_session
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene
@@ -44,4 +45,4 @@ def begin():
     yield make
     for start in starts:
         if start.keeper is not None:
-            start.keeper.close(None)
+            start.keeper.close(session_of(start.state, Arrangement()))

@@ -54,7 +54,7 @@ def test_no_start_loses_an_edit(edited, tmp_path, begin):
     assert [one.name for one in found.objects] == [one.name for one in edited.objects]
     assert (found.lights, found.name) == (edited.lights, edited.name)
     again = start.begin_session(folder=folder)
-    again.keeper.close(None)
+    again.keeper.close(session_of(again.state, Arrangement()))
     assert again.unsaved is None
 
 
@@ -85,5 +85,5 @@ def test_an_edit_that_cannot_be_written_is_set_aside_with_its_session(
     monkeypatch.setattr(start, "atomic_write", full)
     begun = start.kept(start.begin_scene("spheres"), folder=folder)
     begun.keeper.close(session_of(begun.state, Arrangement()))
-    assert begun.unsaved == folder / "session-1.unsaved-1.json"
+    assert begun.unsaved == folder / "session-1.unsaved.json"
     assert from_bytes(begun.unsaved.read_bytes()).unsaved

@@ -3,7 +3,7 @@
 import platformdirs
 import pytest
 
-from lucida.app.state.settings import kept_whole, settings_file
+from lucida.app.state.settings import settings_file
 
 GOOD = "[AppWindow]\nWindowSize=1280,720\n"
 
@@ -66,17 +66,3 @@ def test_where_no_file_can_be_there_is_none(folder, monkeypatch):
 
     monkeypatch.setattr(platformdirs, "user_config_path", no_home)
     assert settings_file() is None
-
-
-@pytest.mark.parametrize("before", [None, GOOD])
-@pytest.mark.parametrize("left", ["", "[AppWin"])
-def test_what_a_full_disk_cuts_off_is_put_back(folder, before, left):
-    path = settings_file()
-    if before is not None:
-        path.write_text(before)
-    with kept_whole(path):
-        path.write_text(left)
-    assert (path.read_text() if path.exists() else None) == before
-    with kept_whole(path):
-        path.write_text(GOOD + "[Other]\n")
-    assert path.read_text() == GOOD + "[Other]\n"

@@ -88,7 +88,7 @@ def test_a_broken_session_is_told_in_the_window_and_kept(tmp_path):
     done = window(tmp_path, "go on")
     assert done.returncode == 0, done.stderr
     assert done.stdout.startswith("Side by side|")
-    assert (tmp_path / "session-1.broken-1.json").read_bytes() == b"\x00 nothing of use"
+    assert (tmp_path / "session-1.broken.json").read_bytes() == b"\x00 nothing of use"
     assert from_bytes((tmp_path / "session-1.json").read_bytes()).scene == "still-life"
 
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from hostile_lecture import FORMULAS, TEXTS, hostile_lecture
 
-from lucida.app.checking.results import read_answers
 from lucida.app.cli import main
 from lucida.app.lecture.exercises import RayExercise
 from lucida.app.lecture.reading import lecture_from_toml
+from lucida.app.lecture.results import read_answers
 from lucida.app.lecture.text import parse
 from lucida.app.web import pdf
 from lucida.app.web.lecture.mathml import inline
@@ -200,8 +200,8 @@ def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
     download.value.save_as(tmp_path / "answers.jsonl")
     answers, problems = read_answers([tmp_path / "answers.jsonl"])
     assert problems == []
-    assert [(one.student, one.step, one.right) for one in answers] == [("Ada", step.title, False)]
-    assert [mistake.name for mistake in answers[0].mistakes] == [expected.mistake]
+    assert [(one.name, one.step, one.right) for one in answers] == [("Ada", step.title, False)]
+    assert answers[0].mistake == expected.mistake
     assert main(["lecture", "--results", str(tmp_path / "answers.jsonl"),
                  "-o", str(tmp_path / "class.html")]) == 0  # fmt: skip
 

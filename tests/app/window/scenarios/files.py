@@ -8,6 +8,7 @@ from imgui_bundle import ImVec2, hello_imgui, imgui
 from window_driver import PATIENT_S, Key, changed
 
 from lucida.app.ui import messages
+from lucida.app.window import files as window_files
 from lucida.app.window.viewer import IDLE_FPS, WAITING_FPS
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files import load_scene, save_view
@@ -135,9 +136,11 @@ def drive_the_windows_own_dialog_opens_and_saves(d):
 
 
 def drive_loading_is_told_and_cancelled(d):
+    good = window_files.open_sources
     for _ in range(2):
         gate = threading.Event()
-        d.files.open_later("slow.obj", lambda gate=gate: gate.wait(PATIENT_S))
+        window_files.open_sources = lambda *_, gate=gate: gate.wait(PATIENT_S)
+        d.window.open("slow.obj")
         d.until(lambda: loading_box() is not None)
         d.frames(2)
         box, pad = loading_box(), imgui.get_style().window_padding
@@ -147,6 +150,7 @@ def drive_loading_is_told_and_cancelled(d):
         d.until(lambda: not d.files.busy)
         assert "cancelled" in d.window.shell.toasts.texts[-1]
         gate.set()
+    window_files.open_sources = good
     d.window.open("spheres")  # a new thread does it
     d.until(lambda: d.state.scene.name == "spheres")
 

@@ -3,23 +3,17 @@
 from __future__ import annotations
 
 import json
+from datetime import UTC, datetime
 from html.parser import HTMLParser
 from pathlib import Path
 
+import msgspec
 import pytest
 from both_lectures import both_lectures
 
-from lucida.app.checking.results import (
-    ClassAnswer,
-    NamedMistake,
-    counts,
-    mistakes,
-    page,
-    read_answers,
-    summary,
-)
 from lucida.app.cli import main
-from lucida.app.lecture.answer_log import AnswerLog
+from lucida.app.lecture.answer_log import AnswerLog, KeptAnswer
+from lucida.app.lecture.results import counts, mistakes, page, read_answers, summary
 from lucida.app.state.kept_lecture import Answers
 from lucida.renderer.system.errors import LucidaError
 
@@ -59,10 +53,10 @@ def test_what_is_answered_is_read_with_the_step_that_explains_it(lecture, tmp_pa
     answers, problems = read_answers([tmp_path / "answers.jsonl"])
     assert problems == []
     choice = next(one for one in answers if one.step == "Exercise: which lens?")
-    assert choice.mistakes[0].read == "Everything around the eye"
+    assert choice.read == "Everything around the eye"
     titles = {step.title for step in lecture.steps}
-    assert {m.read for one in answers for m in one.mistakes} <= titles
-    assert answers[2].right and answers[2].helped and answers[2].student == "Ada"
+    assert {one.read for one in answers} - {""} <= titles
+    assert answers[2].right and answers[2].after_solution and answers[2].name == "Ada"
 
 
 def test_a_file_of_something_else_is_not_written_to(tmp_path):
@@ -107,9 +101,10 @@ def test_broken_and_foreign_lines_cost_a_line_each(tmp_path):
 
 
 def made(student: str, step: str, minute: int, mistake: str = "", helped: bool = False):
-    named = (NamedMistake(mistake, "why", "Two"),) if mistake else ()
-    time = f"2026-11-24T10:{minute:02}:00+00:00"
-    return ClassAnswer(student, step, not mistake, time, named, helped)
+    time = datetime(2026, 11, 24, 10, minute, tzinfo=UTC)
+    reply, read = ("why", "Two") if mistake else ("", "")
+    answer = KeptAnswer(time, student, step, not mistake, mistake=mistake, reply=reply, read=read)
+    return msgspec.structs.replace(answer, after_solution=helped)
 
 
 def test_counts_by_step_and_mistake():
@@ -123,7 +118,7 @@ def test_counts_by_step_and_mistake():
         made("c", "Two", 6, helped=True),
     ]
     assert counts(two) == (1, 1, 1)
-    assert [(mistake.name, students) for mistake, students in mistakes(two)] == [
+    assert [(answer.mistake, students) for answer, students in mistakes(two)] == [
         (FLIPPED, 2),
         (MIDDLE, 1),
     ]
@@ -162,34 +157,16 @@ def test_the_page_is_plain_and_all_text_is_escaped(tmp_path):
     assert "<script>alert(1)</script>" in tags.text
 
 
-def test_checks_count_in_the_same_page(tmp_path, capsys):
-    """The same mistake, in the lecture and in code."""
-    code, out = tmp_path / "rays.py", tmp_path / "results.json"
-    code.write_text(
-        "import numpy as np\n"
-        "def viewing_ray(i, j, width, height, camera):\n"
-        "    u, v, w, e = map(np.array, (camera.u, camera.v, camera.w, camera.eye))\n"
-        "    us = camera.left + (camera.right - camera.left) * (j + 0.5) / width\n"
-        "    vs = camera.bottom + (camera.top - camera.bottom) * (i + 0.5) / height\n"
-        "    if camera.projection == 'parallel':\n"
-        "        return e + us * u + vs * v, -w\n"
-        "    return e, us * u + vs * v - camera.distance * w\n"
-    )
-    assert main(["check", str(code), "--task", "viewing-ray", "--json", str(out)]) == 1
-    lines = written(
-        tmp_path / "a.jsonl",
-        {**LINE, "right": False, "mistake": FLIPPED, "read": "From pixel to (u, v)"},
-        {"no": "answer"},
-    )
+def test_the_command_writes_the_page(tmp_path, capsys):
+    wrong = {**LINE, "right": False, "mistake": FLIPPED, "read": "From pixel to (u, v)"}
+    lines = written(tmp_path / "a.jsonl", wrong, {"no": "answer"})
     result = tmp_path / "class.html"
-    capsys.readouterr()
-    assert main(["lecture", "--results", str(lines), str(out), "-o", str(result)]) == 0
+    assert main(["lecture", "--results", str(lines), "-o", str(result)]) == 0
     said = capsys.readouterr()
     assert said.err.count("\n") == 1 and ":2: " in said.err
     tags = Tags()
     tags.feed(result.read_text())
-    assert "2 answers by 2 students" in tags.text and "Your code: viewing-ray" in tags.text
-    assert "From pixel to (u, v)" in tags.text
+    assert "1 answer by 1 student" in tags.text and "From pixel to (u, v)" in tags.text
     assert main(["lecture", "--results", str(tmp_path / "none"), "-o", str(result)]) == 2
     capsys.readouterr()
     assert main(["lecture", "--results", str(lines)]) == 2
