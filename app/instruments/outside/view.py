@@ -17,7 +17,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.cameras.travel import Ends
-from lucida.app.images.picking import is_quick, line_meetings, nearest_hit, object_on_ray
+from lucida.app.images.picking import line_meetings, object_on_ray
 from lucida.app.images.ray_pictures import RayPictures
 from lucida.app.images.renderers import look_of
 from lucida.app.images.request import ImageRequest
@@ -243,12 +243,12 @@ class OutsideView(Instrument):
         right, down = focused_steps()
         if right or down:
             camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
-            host.apply(self.with_own_camera(host.state, camera), (self.name, "turned"))
+            host.apply(self.with_own_camera(host.state, camera))
             return
         was_dragging = self._mouse.dragging
-        camera, gesture = self._mouse.follow(scope)
+        camera = self._mouse.follow(scope)
         if camera != scope.camera:
-            host.apply(self.with_own_camera(host.state, camera), gesture)
+            host.apply(self.with_own_camera(host.state, camera))
         clicked = self._mouse.clicked()
         if self.hosted.take_click(host, scope, clicked, partial(self.object_under, host)):
             return
@@ -260,18 +260,12 @@ class OutsideView(Instrument):
             host.hover(self.name, pixel)
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
-        """Return the pixel of the image plane that is visible under the mouse."""
+        """Return the pixel of the image plane under the mouse."""
         both, state = host.renderers, host.state
         if not (state.options.outside.image or state.options.outside.grid):
             return None
         ray = scope.ray(imgui.get_mouse_pos())
-        found = pixel_seen(both.camera(state), both.size, *ray)
-        is_hidden = (
-            found is not None
-            and is_quick(state.scene)
-            and nearest_hit(state.scene, *ray)[0] <= found[1]
-        )
-        return None if found is None or is_hidden else found[0]
+        return pixel_seen(both.camera(state), both.size, *ray)
 
     def _picture(self, host: Host, scope: Scope) -> Drawing:
         """Return the present picture; the last one if nothing has changed."""
@@ -290,7 +284,7 @@ class OutsideView(Instrument):
             ImageRequest(state.scene, camera, size), both.textures.rasterizer, tools.overlay,
             refines=not moves,
         )  # fmt: skip
-        if self._scopes.waits or moves or not tools.ground.settled:
+        if moves or not tools.ground.settled:
             host.animate()
         near, units = nearest(camera, scope), units_px(scope.extent)
         content = self.content(host, OutsideScreen(camera, size, near, *units))
