@@ -24,6 +24,7 @@ from .diagram import (
     Segments,
     line,
     named_arrow,
+    named_dot,
     polyline,
     shares,
 )
@@ -208,8 +209,7 @@ def _target(eye: Floats, target: Floats, up: Floats) -> list[Item]:
     """Return the target, and up if it has a length."""
     return [
         line("to target", "extra", eye, target, 1.6, dashed=True, layer=2),
-        Dot("target", "extra", target, 6.0),
-        Label("target", "extra", "target", target, away=target - WORLD_UP, strong=True),
+        *named_dot("target", "extra", "target", target, target - WORLD_UP),
         *(named_arrow("up", "extra", "up", eye, eye + up) if up.any() else ()),
     ]
 
