@@ -32,7 +32,6 @@ class Stage:
         self.failed = FailedViews()
         self._next_focus = ""
         self._by_key = False  # whether the next focus is to be seen
-        self._is_lost = False  # whether the control that had the keyboard is gone
         self._next_shown = "", ""  # a view, and the layout that it is to be shown in
         self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
         self._hovered: Instrument | None = None
@@ -116,14 +115,9 @@ class Stage:
 
     def _begin_tab(self) -> None:
         """Let Tab go into a view where ImGui knows of no control to go on from."""
-        nobody = not (self._keyboard or imgui.get_current_context().nav_id)
-        is_lost, self._is_lost, io = self._is_lost, False, imgui.get_io()
-        if not imgui.is_key_pressed(imgui.Key.tab) or io.key_ctrl or io.key_alt:
-            return
-        if nobody:
+        nobody, io = not (self._keyboard or imgui.get_current_context().nav_id), imgui.get_io()
+        if nobody and imgui.is_key_pressed(imgui.Key.tab) and not (io.key_ctrl or io.key_alt):
             self.focus_next(1)
-        elif is_lost:
-            self._next_focus, self._by_key = self._keyboard, True
 
     @property
     def keyboard(self) -> str:
@@ -229,9 +223,6 @@ class Stage:
             self._hovered = view
         self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
         self.failed.draw(view, host)
-        context = imgui.get_current_context()
-        if self._next_keyboard == view.name and context.nav_cursor_visible:
-            self._is_lost = bool(context.nav_id) and not context.nav_id_is_alive
 
     def _leave_out(self, view: Instrument, host: Host) -> None:
         """Tell a view that it is not visible in this frame, so that no image is fitted to it any
