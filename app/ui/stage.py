@@ -21,19 +21,17 @@ LAID_OUT = 3  # frames that it takes until every window has its place
 class Stage:
     """All views of a window.
 
-    focused: the name of the view that has the keyboard, or "".
     rects: the content rectangles of the views drawn in this frame or the last one.
     """
 
     def __init__(self, views: list[Instrument]) -> None:
         self.views = {view.name: view for view in views}
-        self.focused = ""
         self.rects: dict[str, Rect] = {}
         self.failed = FailedViews()
         self._next_focus = ""
         self._by_key = False  # whether the next focus is to be seen
         self._next_shown = "", ""  # a view, and the layout that it is to be shown in
-        self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
+        self._keyboard = self._next_keyboard = ""  # the view that has it; "" while nothing has
         self._hovered: Instrument | None = None
         self._restoring: Arrangement | None = None
         self._keyboard_for: str | None = None  # who gets it once all have their places
@@ -91,13 +89,6 @@ class Stage:
         else:
             layout.switch(wanted)
 
-    def focus_next(self, step: int) -> None:
-        """Focus the next view, or the previous one (step -1)."""
-        names = [view.name for view in self.shown]
-        if names:
-            here = names.index(self.focused) if self.focused in names else -max(step, 0)
-            self._next_focus, self._by_key = names[(here + step) % len(names)], True
-
     def follow(self) -> None:
         """Follow what was asked for, and move the focus. Call once a frame, before the views."""
         self._frames += 1
@@ -114,10 +105,12 @@ class Stage:
             self._by_key = False
 
     def _begin_tab(self) -> None:
-        """Let Tab go into a view where ImGui knows of no control to go on from."""
-        nobody, io = not (self._keyboard or imgui.get_current_context().nav_id), imgui.get_io()
-        if nobody and imgui.is_key_pressed(imgui.Key.tab) and not (io.key_ctrl or io.key_alt):
-            self.focus_next(1)
+        """Let Tab go into the first view if ImGui knows of no control to go on from."""
+        if self._keyboard or imgui.get_current_context().nav_id or not self.shown:
+            return
+        io = imgui.get_io()
+        if imgui.is_key_pressed(imgui.Key.tab) and not (io.key_ctrl or io.key_alt):
+            self._next_focus, self._by_key = self.shown[0].name, True
 
     @property
     def keyboard(self) -> str:
@@ -209,7 +202,7 @@ class Stage:
             imgui.pop_style_var()
         try:
             if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
-                self.focused = self._next_keyboard = view.name
+                self._next_keyboard = view.name
             if opened:
                 self._draw_content(view, host)
             else:

@@ -2,8 +2,7 @@
 
 from collections.abc import Callable
 
-from lucida.app.ui.surface import Target
-from lucida.app.window.canvas import WindowCanvas
+from lucida.app.window.canvas import Target, WindowCanvas
 
 
 class Glimpses(WindowCanvas):
