@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from glimpses import skip_unseen
 from option_changes import with_options
 
 from lucida.app.window import viewer
@@ -28,6 +29,7 @@ def stepped(run: WindowRun, step: Callable[[], None]) -> None:
         run.window.news.wait(WAIT_S)
         run.window.news.clear()
 
+    skip_unseen(run)
     run.params.callbacks.post_new_frame = each
     run.params.fps_idling.enable_idling = False
     run.run()

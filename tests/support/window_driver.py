@@ -26,7 +26,7 @@ os.environ.pop("WAYLAND_DISPLAY", None)
 
 import numpy as np
 from drives import drives, topic_of
-from glimpses import Glimpses
+from glimpses import skip_unseen
 from imgui_bundle import hello_imgui, imgui
 from option_changes import with_options
 from PIL import Image
@@ -39,7 +39,7 @@ from lucida.app.state.app_state import AppState, History
 from lucida.app.state.options import Options
 from lucida.app.ui import layout, toasts
 from lucida.app.ui.theme import framebuffer_scale
-from lucida.app.window import main_window, viewer
+from lucida.app.window import main_window
 from lucida.app.window.files import Files
 from lucida.app.window.platform import start_platform
 from lucida.app.window.viewer import WindowRun
@@ -73,8 +73,7 @@ class Driver:
         self.drop: Callable[[list[str]], None] = lambda paths: None  # files, upon the window
         self.stay = False  # the mouse, while a picture is taken
         self._pictures = 0
-        Glimpses.is_seen = lambda _: bool(self.run.on_drawn)
-        viewer.WindowCanvas = Glimpses
+        skip_unseen(self.run)
         self.files.native = False  # the system's dialogs, which would wait for somebody
         on_drop = main_window.on_drop
 
@@ -372,14 +371,6 @@ def main(report: Path, folder: Path, names: list[str]) -> None:
             entry.test_func = wrapped(name, test)
             imgui.test_engine.queue_test(engine, entry)
 
-    before_render = params.callbacks.before_imgui_render
-
-    def skip_unseen():
-        before_render()
-        if not Glimpses.is_seen(None):
-            imgui.get_io().display_framebuffer_scale = (0.0, 0.0)  # ImGui draws nothing then
-
-    params.callbacks.before_imgui_render = skip_unseen
     params.use_imgui_test_engine = True
     params.callbacks.register_tests = register
     params.fps_idling.enable_idling = False

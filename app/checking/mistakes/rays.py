@@ -53,7 +53,6 @@ _MATRICES = {"camera_to_world", "world_to_camera"}
 _SAME: Mapping[str, Iterable[str]] = {**PARTS, "row": ["i"], "column": ["j"]}
 _PIXELS = ({"i", "j"}, {"x_pixel", "y_pixel"}, {"x01", "y01"}, {"x11", "y11"})
 _FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "up"})
-_KNOWN = {*WORDS, *SIZES, *GRID, *EDGES, *_MATRICES, "target", "up", "forward", "aspect"}
 
 
 @dataclass(frozen=True)
@@ -88,7 +87,6 @@ def ray_task(task: CheckTask) -> RayTask:
     placed = bool(words & _MATRICES) or any(frame <= words for frame in _FRAMES)
     if not (has_corners(words) or (seen and placed)):
         words = set(WORDS)
-    words = {word for word in words if word in _KNOWN or word.startswith("fov")}
     words = words - set().union(*_PIXELS) | pixel | {"width", "height"}
     base = 0 if task.kind == "render" else its.base
     return RayTask(task.projection, Indexing(base), its.rows == "top", frozenset(words), its.axes)

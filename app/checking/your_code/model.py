@@ -117,7 +117,6 @@ class CodeReport:
     results: of the tasks that have been tried with other cameras, by name.
     failure: the reason why the file answers nothing, or not all.
     output: the text that it printed.
-    seconds: the duration of the newest run.
     """
 
     question: CodeQuestion
@@ -125,7 +124,6 @@ class CodeReport:
     results: Mapping[str, TaskResult] = field(default_factory=dict)
     failure: Failure | None = None
     output: str = ""
-    seconds: float = 0.0
 
     @property
     def halted(self) -> bool:

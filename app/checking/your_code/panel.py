@@ -30,11 +30,7 @@ from .words import ToldLine, ToldRole
 
 CodeWish = Literal["", "open", "starter", "run", "stop"]
 RUNNING_S = 0.3  # a run that takes longer shows how far it is
-BESIDE = 2.0  # width / height from which words are next to the pictures
-WORDS_EM = 24.0  # the least width of the words there
 TEXT_PART = 0.42  # of the height, for the words below the pictures
-VERDICT = 1.25  # its size, in that of the other words
-VERDICT_LONGEST = 70  # characters; longer text explains why there is none
 
 INVITATION = (
     "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"
@@ -100,46 +96,29 @@ def head(
     return wish, canvas
 
 
-def rooms(room: ImVec2, has_pictures: bool) -> tuple[ImVec2, ImVec2, bool]:
-    """Return the space for the pictures and for the words, and True if they are side by side."""
-    gap = imgui.get_style().item_spacing
-    if not has_pictures:
-        return ImVec2(0, 0), room, False
-    em = imgui.get_font_size()
-    if room.x > BESIDE * room.y and room.x > 2 * WORDS_EM * em:
-        words = max(WORDS_EM * em, 0.34 * room.x)
-        return ImVec2(room.x - words - gap.x, room.y), ImVec2(words, room.y), True
-    height = max(TEXT_PART * room.y, min(8 * em, 0.6 * room.y))
-    return ImVec2(room.x, room.y - height - gap.y), ImVec2(room.x, height), False
+def pictures_room() -> ImVec2:
+    """Return the space for the pictures: all but that of the words below."""
+    room, em = imgui.get_content_region_avail(), imgui.get_font_size()
+    words = max(TEXT_PART * room.y, min(8 * em, 0.6 * room.y))
+    return ImVec2(room.x, room.y - words - imgui.get_style().item_spacing.y)
 
 
-def words(lines: Sequence[ToldLine], room: ImVec2, fonts: Fonts) -> str:
-    """Draw the findings, the verdict above all. Scroll them if they do not fit. Return the title of
-    the lecture's step whose link was clicked, or "".
+def words(lines: Sequence[ToldLine], fonts: Fonts) -> str:
+    """Draw the findings in the rest of the view, the verdict above all. Scroll them if they do not
+    fit. Return the title of the lecture's step whose link was clicked, or "".
     """
     title = ""
-    if imgui.begin_child("told", room):
+    if imgui.begin_child("told", imgui.get_content_region_avail()):
         for number, line in enumerate(lines):
-            with lettering(*_lettering(line, number, fonts)):
-                if line.role == "code":
-                    wrapped(line.text)
-                elif line.role == "read":
+            font = fonts.bold if number == 0 else fonts.text
+            with lettering(fonts.mono if line.role == "code" else font):
+                if line.role == "read":
                     if imgui.text_link(line.text):
                         title = line.text.removeprefix(READ).removesuffix(".")
                 else:
                     wrapped(line.text, _color(line.role))
     imgui.end_child()
     return title
-
-
-def _lettering(line: ToldLine, number: int, fonts: Fonts) -> tuple[imgui.ImFont | None, float]:
-    """Return the font of a line, and its type's size in parts of the usual one."""
-    if line.role == "code":
-        return fonts.mono, 1.0
-    is_verdict = number == 0 and line.role in ("good", "bad")
-    if is_verdict and len(line.text) <= VERDICT_LONGEST:  # the last row is to read it
-        return fonts.bold, VERDICT
-    return fonts.text, 1.0
 
 
 def _color(role: ToldRole) -> ImVec4:

@@ -1,7 +1,7 @@
 """Runs a student's file in the background: for the window's camera, then for others.
 
-The newest question wins. An overtaken run is ended if it takes long. The slow work, other cameras,
-waits until the camera rests.
+The newest question wins. An overtaken run is ended if it takes long. Other cameras are tried once
+the window's has been.
 """
 
 from __future__ import annotations
@@ -23,7 +23,6 @@ from .model import RAY, CodeQuestion, CodeReport, cases_for, ray_task_for, rays_
 
 LIMITS = Limits(seconds=10.0)
 OVERTAKEN_S = 0.3  # a run of an older question is ended if it takes longer
-REST_S = 0.25  # the camera rests; a file whose run took longer is not run before
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,6 @@ class CodeRuns:
         self._file: tuple[str, int] | None = None  # the student's path and version
         self._work: _Work | None = None
         self._newest: CodeQuestion | None = None
-        self._since_s = 0.0  # of the newest question
         self._stopped = False  # by the user
         self.report: CodeReport | None = None
 
@@ -69,16 +67,14 @@ class CodeRuns:
         that the user asks for here: another version or size.
         """
         self.poll()
-        if question != self._newest:
-            self._newest, self._since_s = question, time.monotonic()
-        work = self._work
+        self._newest, work = question, self._work
         if work is not None:
             is_late = work.question != question and self.running_s > OVERTAKEN_S
             if is_late:
                 self._work = replace(work, question=None)
             if self._student is not None and (self._stopped or is_late):
                 self._student.stop()
-        elif (wanted := self._wanted()) is not None and self._may_begin():
+        elif (wanted := self._wanted()) is not None:
             self._begin(question, wanted)
 
     def poll(self) -> None:
@@ -88,9 +84,7 @@ class CodeRuns:
             return
         work, self._work = self._work, None
         if work.question is not None:
-            report = _report(work.question, outcome)
-            seconds = report.seconds or time.monotonic() - work.begun_s
-            self.report = replace(report, seconds=seconds)
+            self.report = _report(work.question, outcome)
 
     def stop(self) -> None:
         """End the current run. Its report says so, and nothing else is tried."""
@@ -122,14 +116,6 @@ class CodeRuns:
         if report is not None and report.halted and question.differs_in_camera(report.question):
             return None
         return partial(_answered, question=question, before=report)
-
-    def _may_begin(self) -> bool:
-        """Return True if the camera rests, or the file is quick enough to follow it."""
-        report, question = self.report, self._newest
-        assert question is not None
-        is_quick = report is None or report.seconds < REST_S
-        is_other = report is None or report.question != question
-        return (is_quick and is_other) or time.monotonic() - self._since_s >= REST_S
 
     def _begin(self, question: CodeQuestion, run: Callable[[FileStudent], CodeReport]) -> None:
         file = question.path, question.version

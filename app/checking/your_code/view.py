@@ -174,15 +174,10 @@ class YourCode(Instrument):
             return wish
         self._pictures.follow(host, report)
         marked = marked_pixel(host, report)
-        room = imgui.get_content_region_avail()
-        for_pictures, for_words, beside = panel.rooms(room, self._pictures.expected)
         if self._pictures.expected:
-            self._pictures.draw(host, report, for_pictures, marked)
-        if beside:
-            imgui.same_line()
+            self._pictures.draw(host, report, panel.pictures_room(), marked)
         self.told = self._words(report, marked)
-        left = imgui.get_content_region_avail()  # pictures may need less than they may have
-        title = panel.words(self.told, for_words if beside else left, host.fonts)
+        title = panel.words(self.told, host.fonts)
         if title:
             host.view(LectureView).read_again(host, title)
         self._show_outside(host, report, marked)

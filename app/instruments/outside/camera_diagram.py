@@ -11,6 +11,7 @@ from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.camera.intrinsics import PixelOrigin
 
 from .diagram import (
     Dot,
@@ -40,6 +41,7 @@ from .frustum import (
 )
 from .lens_diagram import ideal_border, lens_pixel
 from .pixel_drawing import pixel_numbers, pixel_square
+from .pixel_plane import pixel_items
 from .ray_drawing import half_line, meetings, rays_to
 from .simple_camera import simple_camera
 
@@ -58,7 +60,7 @@ class Content:
     hits: the bundle's rays.
     marked: the marked pixel's ray.
     grid_parts: the maximum number of parts of a side of the grid.
-    base: the number of the first row and column.
+    base: the number of the first row and column. origin: where K has whole numbers.
     number_step: see pixel_numbers(); None if rows and columns are not numbered.
     meetings: the t of all points where the marked pixel's line meets objects.
     names_t: True to write the t of the marked pixel's hit.
@@ -73,6 +75,7 @@ class Content:
     marked: RayEnd | None = None
     grid_parts: int = MOST_GRID_LINES
     base: int = 1
+    origin: PixelOrigin = "center"
     number_step: int | None = None
     meetings: tuple[float, ...] = ()
     names_t: bool = True
@@ -100,7 +103,8 @@ def diagram(content: Content) -> list[Item]:
             items += _marked(content, marked)
     if options.simple:
         return items + simple_camera(camera, options.simple, measured=options.formula is None)
-    return items + _basis(camera, options, content.arrow) + _eye(camera, options)
+    items += _basis(camera, options, content.arrow) + _eye(camera, options)
+    return [*items, *pixel_items(camera, size, content.origin)] if options.pixels else items
 
 
 def plane_items(content: Content) -> list[Item]:

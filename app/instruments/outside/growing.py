@@ -238,13 +238,9 @@ def _turning(content: Content, pixel: Pixel, share: float) -> list[Item]:
         Dot("p", "ray", origin, 6.0, layer=5),
         Label("p", "ray", "vec(p)", origin, away=origin - v, strong=True),
     ]
-    middle = eye - left * back
-    found = [
-        Term("w", "w", "-d vec(w)", eye, middle),
-        Term("u", "u", "u vec(u)", middle, middle + x * u),
-        Term("v", "v", "v vec(v)", middle + x * u, middle + x * u + y * v),
-        Term("d", "ray", "vec(d)", origin, origin + (left + share / camera.distance) * way),
-    ]
+    found = terms(camera, x, y, {"w": left, "u": 1.0, "v": 1.0, "ray": 0.0})
+    end = origin + (left + share / camera.distance) * way
+    found.append(Term("d", "ray", "vec(d)", origin, end))
     least = 1e-3 * camera.distance
     found = [one for one in found if float(np.linalg.norm(one.end - one.start)) > least]
     return items + _drawn(found, camera, x, y, lit="")

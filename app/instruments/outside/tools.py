@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.state.bounds import whole_range_of
-from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.ui import theme
 from lucida.app.ui.action import Action, draw_entry
 from lucida.app.ui.host import Host
@@ -45,8 +42,6 @@ def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> tuple[Edge
     if imgui.begin_popup("outside menu"):
         for number, action in enumerate(one for one in actions if one.menu == MENU):
             draw_entry(action, host, first=number == 0)
-            if action.keys == "B":
-                _bundle_fields(host)
         imgui.end_popup()
     draw_axes(scope.shown, origin, scope.extent)
     scale, right, around = framebuffer_scale(), scope.extent.x, 2 * theme.px(TRIAD_PX)
@@ -54,14 +49,6 @@ def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> tuple[Edge
         (0.0, 0.0, scale * (covered.x + pad), scale * (covered.y + pad)),
         (scale * (right - around), 0.0, scale * right, scale * around),
     )
-
-
-def _bundle_fields(host: Host) -> None:
-    options, ends = host.state.options.outside, whole_range_of(OutsideOptions, "bundle")
-    imgui.set_next_item_width(theme.px(110))
-    changed, (rows, columns) = imgui.slider_int2("rows, columns", [*options.bundle], *ends)
-    if changed:
-        host.edit(replace(options, bundle=(rows, columns)))
 
 
 def draw_axes(camera: Camera, origin: ImVec2, extent: ImVec2) -> None:

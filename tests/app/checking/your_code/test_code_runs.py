@@ -217,17 +217,6 @@ def test_forgetting_ends_the_process(desk):
     assert len(desk.made[1].runs) == 2  # nothing of before is taken for an answer
 
 
-def test_a_slow_file_waits_until_the_camera_rests(desk, monkeypatch):
-    monkeypatch.setattr(runs_module, "REST_S", 0.0)  # each run is slow
-    desk.told(QUESTION)
-    monkeypatch.setattr(runs_module, "REST_S", 10_000.0)
-    desk.runs.report = replace(desk.runs.report, seconds=20_000.0)
-    desk.runs.follow(OTHER)
-    assert desk.runs.busy and desk.runs.running_s == 0
-    monkeypatch.setattr(runs_module, "REST_S", 0.0)
-    assert desk.told(OTHER).question == OTHER
-
-
 def test_wrong_rays_are_told_first_then_why(desk):
     def mirrored(student):
         def answer(call):
