@@ -59,7 +59,6 @@ from .looking import (
 )
 from .mouse import Area, Mouse, Scope
 from .paint import ground_of, layers
-from .pixel_plane import pixel_items
 from .placing import Edges, LabelPlacer
 from .projected import Primitive, project
 from .screen import OutsideScreen, image_plane
@@ -106,7 +105,7 @@ class OutsideView(Instrument):
         self.hosted = Hosted(self.name)
         self._over = False  # whether the mouse is over the picture
         self._made: Drawing | None = None
-        self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), Memo(pixel_items)
+        self._scopes, self._placer = Scopes(), LabelPlacer()
         self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
         self._meetings, self._drawn, self._written = Memo(_meetings), Memo(_drawn), Memo(written)
@@ -192,7 +191,6 @@ class OutsideView(Instrument):
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
         area = Area.of(size, imgui.get_cursor_screen_pos())
-        self.show("pixels", self._pixel_items(host))
         self._follow_mouse(host, self._scope(host, area))
         scope, draw = self._scope(host, area), imgui.get_window_draw_list()
         try:
@@ -219,12 +217,6 @@ class OutsideView(Instrument):
         now_s, held = time.monotonic(), imgui.is_any_mouse_down()
         self.scope = self._scopes.of(host, area, self.extensions.points, now_s, held)
         return self.scope
-
-    def _pixel_items(self, host: Host) -> tuple[Item, ...]:
-        both, options = host.renderers, host.state.options
-        if not options.outside.pixels or not min(both.size):
-            return ()
-        return self._pixels(both.camera(host.state), both.size, options.pixel_origin)
 
     def _follow_mouse(self, host: Host, scope: Scope) -> None:
         imgui.set_cursor_screen_pos(scope.origin)
@@ -316,6 +308,7 @@ class OutsideView(Instrument):
             marked,
             grid_parts=int(side_px / (GRID_PX * screen.unit_px)),
             base=state.options.indexing.value,
+            origin=state.options.pixel_origin,
             number_step=None if host.has_tools or not options.grid else step,
             meetings=found,
             names_t=host.has_tools,
