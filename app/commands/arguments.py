@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NoReturn
 
 from lucida.app.cameras.options import with_camera_options
-from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.system.errors import LucidaError, one_line, visible
 
 from .given_camera import say_changes, viewed
@@ -107,13 +106,6 @@ def real(is_allowed: Callable[[float], bool], complaint: str) -> Callable[[str],
     return parse
 
 
-def indexing(text: str) -> Indexing:
-    """Parse `0` or `1`, the index of the first pixel."""
-    if text not in ("0", "1"):
-        raise argparse.ArgumentTypeError(f"{text!r} is not 0 or 1")
-    return Indexing(int(text))
-
-
 def add_size_option(
     parser: argparse.ArgumentParser, parse: Callable[[str], tuple[int, int]] = size
 ) -> None:
@@ -153,18 +145,6 @@ def add_drawing_options(parser: argparse.ArgumentParser) -> None:
         default=0,
         metavar="N",
         help="with --renderer ray: specular surfaces reflect, N times at most (default: 0)",
-    )
-
-
-def add_from_option(parser: argparse.ArgumentParser) -> None:
-    """Add --from 0 or 1, as `indexing`. The default is always 0, so that scripts can rely on it."""
-    parser.add_argument(
-        "--from",
-        dest="indexing",
-        type=indexing,
-        default=Indexing.ARRAY,
-        metavar="0|1",
-        help="count rows and columns from 0 (arrays) or 1 (lectures) (default: 0)",
     )
 
 

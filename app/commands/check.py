@@ -91,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
     tasks: list[CheckTask] = []
     results: list[TaskResult] = []
     from lucida.app.checking.checked import check, status_of
-    from lucida.app.checking.reports import summary
+    from lucida.app.checking.reports import summary, terminal_lines
     from lucida.app.checking.running.program import DISHONEST
 
     def write(problem: str = "") -> None:
@@ -99,7 +99,9 @@ def run(arguments: argparse.Namespace) -> int:
 
     try:
         _check_arguments(arguments)
-        tasks, limits = _asked_for(arguments)
+        tasks, limits = all_tasks(arguments.tasks)
+        if arguments.task is not None:
+            tasks = [named(tasks, arguments.task)]
         student = _student(arguments, limits)
         if arguments.json != "-":  # results to find if the student's program ends this process
             write(NOT_ENDED)
@@ -109,7 +111,8 @@ def run(arguments: argparse.Namespace) -> int:
                 print(f"lucida: {DISHONEST}", file=sys.stderr)
             for result in check(student, tasks):
                 results.append(result)
-                _tell(arguments, result)
+                if arguments.json != "-":
+                    print("\n".join(terminal_lines(result)), flush=True)
         finally:
             student.close()
         if student.survived:
@@ -140,14 +143,6 @@ def _why(error: LucidaError) -> list[str]:
         return []
     printed = visible(error.output).rstrip().split("\n") if error.output else []
     return [*printed, *failure_lines(error.failure)]
-
-
-def _asked_for(arguments: argparse.Namespace) -> tuple[list[CheckTask], Limits]:
-    """Return the tasks of the arguments, even if the code lacks their functions, and the limits."""
-    tasks, limits = all_tasks(arguments.tasks)
-    if arguments.task is not None:
-        tasks = [named(tasks, arguments.task)]
-    return tasks, limits
 
 
 def _possible(
@@ -244,14 +239,6 @@ def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | Com
         problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
         raise LucidaError("", problem, remedy, str(path))
     return FileStudent(path, limits, arguments.python or "", _account(arguments))
-
-
-def _tell(arguments: argparse.Namespace, result: TaskResult) -> None:
-    from lucida.app.checking.reports import terminal_lines
-
-    if arguments.json == "-":
-        return
-    print("\n".join(terminal_lines(result)), flush=True)
 
 
 def _write_starter(arguments: argparse.Namespace) -> int:

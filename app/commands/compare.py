@@ -43,7 +43,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--backend", choices=common.BACKENDS, default="auto", help=common.BACKEND_HELP
     )
-    common.add_from_option(parser)
     parser.add_argument("--json", action="store_true", help="print one JSON object")
 
 
@@ -65,9 +64,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.output is not None:
         write_picture(arguments.output, comparison.difference_image())
     if arguments.json:
-        print(json.dumps(comparison.to_dict(arguments.indexing), indent=2, allow_nan=False))
+        print(json.dumps(comparison.to_dict(), indent=2, allow_nan=False))
     else:
-        print(comparison.summary(arguments.indexing))
+        print(comparison.summary())
     if comparison.nothing_hit:
         common.say_nothing_is_hit(scene, camera)
     return 1 if comparison.unexplained or comparison.nothing_hit else 0

@@ -17,7 +17,7 @@ NAME = "pick"
 DESCRIPTION = """\
 Print what one pixel of an image sees: the object, ray parameter t, distance z, point, normal,
 colour.
-Rows are counted from the top, columns from the left, from 0 or, with --from 1, from 1."""
+Rows are counted from the top, columns from the left, both from 0."""
 
 EPILOG = """\
 t is measured as in `lucida render --channel depth`: 1 on the image plane in perspective; z is the
@@ -28,7 +28,6 @@ exit status: 0 done (also if the pixel sees the background), 2 a mistake or a fa
 
 examples:
   lucida pick spheres 360 640
-  lucida pick spheres 361 641 --from 1
   lucida pick bunny.obj 100 200 --size 640x480 --view corner.toml --json"""
 
 
@@ -37,7 +36,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", metavar="SCENE", help=common.SCENE_HELP)
     parser.add_argument("row", type=_whole, metavar="ROW", help="the pixel's row")
     parser.add_argument("column", type=_whole, metavar="COLUMN", help="and its column")
-    common.add_from_option(parser)
     common.add_size_option(parser)
     add_view_option(parser)
     add_camera_options(parser)
@@ -54,24 +52,19 @@ def run(arguments: argparse.Namespace) -> int:
     # The whole image, so that the pixel is the same as in a file.
     with common.progress_bar("ray") as progress, Tracer(scene) as tracer:
         frame = tracer.render(camera, arguments.size, progress=progress)
-    seen = picked(scene, camera, frame, pixel, arguments.indexing)
+    seen = picked(scene, camera, frame, pixel)
     print(json.dumps(seen, indent=2, allow_nan=False) if arguments.json else as_text(seen))
     return 0
 
 
 def _pixel(arguments: argparse.Namespace) -> Pixel:
     """Return the requested pixel. Raises LucidaError if it is outside the image."""
-    first = arguments.indexing.value
-    counts = {
-        "ROW": (arguments.row, arguments.size[1]),
-        "COLUMN": (arguments.column, arguments.size[0]),
-    }
-    for name, (value, count) in counts.items():
-        if not first <= value < count + first:
-            problem = f"{value} is outside an image of {arguments.size[0]}x{arguments.size[1]}"
-            raise LucidaError(name, problem, f"give {first} to {count + first - 1}")
-    pixel: Pixel = arguments.indexing.pixel(arguments.row, arguments.column)
-    return pixel
+    width, height = arguments.size
+    for name, value, count in (("ROW", arguments.row, height), ("COLUMN", arguments.column, width)):
+        if not 0 <= value < count:
+            problem = f"{value} is outside an image of {width}x{height}"
+            raise LucidaError(name, problem, f"give 0 to {count - 1}")
+    return arguments.row, arguments.column
 
 
 def _whole(text: str) -> int:

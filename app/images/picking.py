@@ -10,23 +10,13 @@ import numpy as np
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.scene.model import Mesh, Scene, Sphere
 
-MOST_OBJECTS, MOST_TRIANGLES = 100, 20_000  # one to two milliseconds
-
 
 def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None:
     """Return the index of the nearest object on r(t) = origin + t direction, t > 0; None if there
-    is none, or no direction: outside of a lens.
-    """
-    return nearest_hit(scene, origin, direction)[1]
-
-
-def nearest_hit(scene: Scene, origin: Floats, direction: Floats) -> tuple[float, int | None]:
-    """Return the smallest t > 0 at which r(t) = origin + t direction hits an object, and its index;
-    infinity and None if nothing is hit, or the direction is NaN (outside of a lens). Both sides of
-    triangles count.
+    is none, or no direction: outside of a lens. Both sides of triangles count.
     """
     hits = [(t, k) for k, t in _by_object(scene, origin, direction) if math.isfinite(t)]
-    return min(hits, default=(math.inf, None))
+    return min(hits, default=(math.inf, None))[1]
 
 
 def line_meetings(scene: Scene, origin: Floats, direction: Floats) -> tuple[float, ...]:
@@ -35,14 +25,6 @@ def line_meetings(scene: Scene, origin: Floats, direction: Floats) -> tuple[floa
     """
     found = {way * t for way in (1, -1) for _, t in _by_object(scene, origin, way * direction)}
     return tuple(sorted(filter(math.isfinite, found)))
-
-
-def is_quick(scene: Scene) -> bool:
-    """Return True if nearest_hit() takes only a small part of a frame."""
-    if len(scene.objects) > MOST_OBJECTS:
-        return False
-    meshes = (entry.shape for _, entry in scene.visible if isinstance(entry.shape, Mesh))
-    return sum(len(mesh.faces) for mesh in meshes) <= MOST_TRIANGLES
 
 
 def _by_object(scene: Scene, origin: Floats, direction: Floats) -> Iterator[tuple[int, float]]:

@@ -63,6 +63,7 @@ REMOVED: dict[str, str] = {
         ),
         "there is no quiz of wrong lines any more; a lecture asks by exercises",
     ),
+    "poses.length": "the frusta have a length that suits the set",
     "images.lens_splitting": "vertices are not moved for a lens any more",
     "stepper.depth": "an image's channel z shows the distances",
     "stepper.speed": "Right, held, goes on line by line, and the slider to any step",

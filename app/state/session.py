@@ -28,15 +28,6 @@ LARGEST_BYTES = 20 << 20  # an edited scene is in it
 OLDER = "The last session is of an earlier version:"
 
 
-# Removed layouts, and the nearest remaining ones.
-NEAREST = {
-    **dict.fromkeys(("Presentation", "Images", "Detective"), "Side by side"),
-    **dict.fromkeys(("Your code", "Laboratory", "Mistakes"), "Loops"),
-    **dict.fromkeys(("Poses", "Film", "Results"), "Outside view"),
-    "Scene": "Four views",
-}
-
-
 class NewerVersionError(LucidaError):
     """The file was written by a newer Lucida."""
 
@@ -155,9 +146,4 @@ def _session(data: bytes) -> Session:
         raise LucidaError(error.field, error.problem, remedy) from None
     except (msgspec.ValidationError, RecursionError) as error:
         raise LucidaError("", f"is damaged: {error}", remedy) from None
-    return replace(session, arrangement=_renamed(session.arrangement), notes=tuple(notes))
-
-
-def _renamed(found: Arrangement) -> Arrangement:
-    """Return an arrangement without removed layouts."""
-    return replace(found, layout=NEAREST.get(found.layout, found.layout))
+    return replace(session, notes=tuple(notes))

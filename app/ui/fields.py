@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from . import pending, theme, typed
+from . import theme, typed
 from .explaining import notation
 from .rows import tip
 
@@ -126,7 +126,6 @@ def number_field(
             # The widget uses float32: restore the intended number.
             new = float(f"{new:.7g}")
     if marked:
-        pending.here()
         imgui.pop_style_color()
         imgui.pop_style_var()
     imgui.pop_font()

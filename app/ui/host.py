@@ -16,7 +16,6 @@ from lucida.renderer.scene.focus import Focus
 from .entry_box import Box
 from .recent import RecentFiles
 from .theme import Fonts
-from .toasts import Toasts
 
 T = TypeVar("T")
 
@@ -64,9 +63,6 @@ class Filing(Protocol):
 class Around(Protocol):
     """The parts of the window around the views, for actions."""
 
-    @property
-    def toasts(self) -> Toasts: ...
-    def focus_next(self, step: int) -> None: ...
     def toggle_help(self) -> None: ...
     def open_document(self, name: str) -> None: ...
 

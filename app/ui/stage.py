@@ -21,20 +21,17 @@ LAID_OUT = 3  # frames that it takes until every window has its place
 class Stage:
     """All views of a window.
 
-    focused: the name of the view that has the keyboard, or "".
     rects: the content rectangles of the views drawn in this frame or the last one.
     """
 
     def __init__(self, views: list[Instrument]) -> None:
         self.views = {view.name: view for view in views}
-        self.focused = ""
         self.rects: dict[str, Rect] = {}
         self.failed = FailedViews()
         self._next_focus = ""
         self._by_key = False  # whether the next focus is to be seen
-        self._is_lost = False  # whether the control that had the keyboard is gone
         self._next_shown = "", ""  # a view, and the layout that it is to be shown in
-        self._keyboard = self._next_keyboard = ""  # as focused, but "" while something else has it
+        self._keyboard = self._next_keyboard = ""  # the view that has it; "" while nothing has
         self._hovered: Instrument | None = None
         self._restoring: Arrangement | None = None
         self._keyboard_for: str | None = None  # who gets it once all have their places
@@ -92,13 +89,6 @@ class Stage:
         else:
             layout.switch(wanted)
 
-    def focus_next(self, step: int) -> None:
-        """Focus the next view, or the previous one (step -1)."""
-        names = [view.name for view in self.shown]
-        if names:
-            here = names.index(self.focused) if self.focused in names else -max(step, 0)
-            self._next_focus, self._by_key = names[(here + step) % len(names)], True
-
     def follow(self) -> None:
         """Follow what was asked for, and move the focus. Call once a frame, before the views."""
         self._frames += 1
@@ -115,15 +105,12 @@ class Stage:
             self._by_key = False
 
     def _begin_tab(self) -> None:
-        """Let Tab go into a view where ImGui knows of no control to go on from."""
-        nobody = not (self._keyboard or imgui.get_current_context().nav_id)
-        is_lost, self._is_lost, io = self._is_lost, False, imgui.get_io()
-        if not imgui.is_key_pressed(imgui.Key.tab) or io.key_ctrl or io.key_alt:
+        """Let Tab go into the first view if ImGui knows of no control to go on from."""
+        if self._keyboard or imgui.get_current_context().nav_id or not self.shown:
             return
-        if nobody:
-            self.focus_next(1)
-        elif is_lost:
-            self._next_focus, self._by_key = self._keyboard, True
+        io = imgui.get_io()
+        if imgui.is_key_pressed(imgui.Key.tab) and not (io.key_ctrl or io.key_alt):
+            self._next_focus, self._by_key = self.shown[0].name, True
 
     @property
     def keyboard(self) -> str:
@@ -215,7 +202,7 @@ class Stage:
             imgui.pop_style_var()
         try:
             if imgui.is_window_focused(imgui.FocusedFlags_.root_and_child_windows):
-                self.focused = self._next_keyboard = view.name
+                self._next_keyboard = view.name
             if opened:
                 self._draw_content(view, host)
             else:
@@ -229,9 +216,6 @@ class Stage:
             self._hovered = view
         self.rects[view.name] = (corner.x, corner.y, corner.x + room.x, corner.y + room.y)
         self.failed.draw(view, host)
-        context = imgui.get_current_context()
-        if self._next_keyboard == view.name and context.nav_cursor_visible:
-            self._is_lost = bool(context.nav_id) and not context.nav_id_is_alive
 
     def _leave_out(self, view: Instrument, host: Host) -> None:
         """Tell a view that it is not visible in this frame, so that no image is fitted to it any

@@ -133,19 +133,6 @@ LOOK = (
     ),
     *(_layout(number, one) for number, one in enumerate(layout.CHOICES)),
     Action("Layout", "Reset the layout", lambda w: layout.reset(), separated=True),
-    Action(
-        "View",
-        "Next view",
-        lambda w: w.shell.focus_next(1),
-        "F3",
-        separated=True,
-    ),
-    Action(
-        "View",
-        "Previous view",
-        lambda w: w.shell.focus_next(-1),
-        "Shift+F3",
-    ),
 )
 
 EFFECTS = (

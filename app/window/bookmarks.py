@@ -39,14 +39,14 @@ def with_bookmark(state: AppState, number: int) -> AppState:
 def store(window: Host, number: int) -> None:
     """Keep the present view, and report it."""
     window.change(with_bookmark(window.state, number))
-    window.shell.toasts.add(f"This view is bookmark {number}: key {number} comes back to it.")
+    window.files.say(f"This view is bookmark {number}: key {number} comes back to it.")
 
 
 def recall(window: Host, number: int) -> None:
     """Go to a bookmark's view; report how to make one if there is none."""
     mark = of(window.state, number)
     if mark is None:
-        window.shell.toasts.add(f"Bookmark {number} is free: Ctrl+{number} keeps a view.")
+        window.files.say(f"Bookmark {number} is free: Ctrl+{number} keeps a view.")
         return
     window.travel(window.state.with_view(mark.view))
 

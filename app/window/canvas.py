@@ -7,13 +7,31 @@ size that it was made with, at most that of an imaginary monitor of 1920 x 1080;
 
 from __future__ import annotations
 
-import moderngl
+from dataclasses import dataclass
 
-from lucida.app.ui.surface import Target, copy_pixels
+import moderngl
+import numpy as np
+
 from lucida.renderer.raster.resources import new_texture
 
 MOST_KEPT = 30  # frames in a row that are not shown: whatever goes wrong, the window goes on
 Size = tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Target:
+    """A framebuffer for a frame. size: (width, height) in pixels."""
+
+    framebuffer: moderngl.Framebuffer
+    size: tuple[int, int]
+
+    def read(self) -> np.ndarray:
+        """Return the drawn pixels, uint8 (height, width, 3), row 0 at the top. Call before the
+        swap.
+        """
+        width, height = self.size
+        data = self.framebuffer.read((0, 0, width, height), components=3, alignment=1)
+        return np.frombuffer(data, np.uint8).reshape(height, width, 3)[::-1]
 
 
 class WindowCanvas:
@@ -54,8 +72,7 @@ class WindowCanvas:
         if self._shown is None:
             return
         if in_window:
-            box = (0, 0, *self._shown.size)
-            copy_pixels(self._shown.glo, box, 0, box)
+            self._context.copy_framebuffer(self._context.screen, self._shown)
         else:
             self._shown.use()
 

@@ -212,7 +212,9 @@ class Files:
         if outcome is None or isinstance(outcome.error, CancelledError):
             return None
         if isinstance(outcome.error, OutsideError):
-            self._ask_outside(outcome.error, self._again)
+            named, again = outcome.error.files, self._again
+            text = outside_question(one_line(Path(outcome.error.source).name), named)
+            self.ask(text, {OPEN: lambda: again(frozenset(named))})
         elif outcome.error is not None:
             self.message = describe(outcome.error)
         elif outcome.value is not None:
@@ -227,16 +229,7 @@ class Files:
         if self.message == self._mistake:  # the one before is mended, or another one now
             self.message = ""
         self._mistake = ""
-        if isinstance(outcome.error, OutsideError):
-            source = outcome.error.source
-            agreed = self._guarded.get(source, frozenset())
-            self._ask_outside(
-                outcome.error,
-                lambda more: self._load(
-                    source, lambda all_: open_sources([source], True, all_), agreed | more
-                ),
-            )
-        elif outcome.error is not None:
+        if outcome.error is not None:
             self.message = self._mistake = describe(outcome.error)
         return outcome.value
 
@@ -274,10 +267,6 @@ class Files:
                 return load(agreed)
 
         self._loading.submit(loaded)
-
-    def _ask_outside(self, error: OutsideError, again: Callable[[frozenset[Path]], None]) -> None:
-        text = outside_question(one_line(Path(error.source).name), error.files)
-        self.ask(text, {OPEN: lambda: again(frozenset(error.files))})
 
     def _note(self, opened: Opened) -> None:
         scene, view = opened.find(OpenedScene), opened.find(OpenedView)

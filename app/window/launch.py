@@ -15,12 +15,12 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Pixel
 from lucida.app.state.paths import stored
 from lucida.app.ui import layout
-from lucida.app.ui.surface import Target
 from lucida.renderer.files import EMPTY_SCENE
 from lucida.renderer.scene import Scene
 from lucida.renderer.scene import View as SceneView
 from lucida.renderer.system.atomic import check_writable
 
+from .canvas import Target
 from .capture import free_path
 from .figure_choice import FigureChoice
 from .figures import encoder

@@ -17,10 +17,10 @@ from lucida.app.lecture.answer_log import AnswerLog
 from lucida.app.lecture.model import Lecture, Step
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Theme
-from lucida.app.ui.surface import Target
 from lucida.renderer.system.atomic import check_writable
 from lucida.renderer.system.errors import LucidaError
 
+from .canvas import Target
 from .capture import cut
 from .launch import start_drawing
 from .main_window import MainWindow

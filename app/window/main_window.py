@@ -221,14 +221,12 @@ class MainWindow(Edits):
 
     def menus(self) -> None:
         self.menu_keys.frame()
-        is_hall = self.state.preferences.presentation
-        menu_bar(self, self.history, self.shell.stage, self.status if is_hall else None)
+        menu_bar(self, self.history, self.shell.stage)
 
     def _bars(self) -> None:
-        """Show the bars that there is room for: none on the stage, one in presentation mode."""
+        """Show both bars, and none on the stage."""
         shown = hello_imgui.get_runner_params().imgui_window_params
-        shown.show_menu_bar = not self.on_stage
-        shown.show_status_bar = not self.state.preferences.presentation
+        shown.show_menu_bar = shown.show_status_bar = not self.on_stage
         if self.on_stage and self.lecture.shows_controls:
             menu_button(self, self.history, self.shell.stage)
 
@@ -273,8 +271,8 @@ class MainWindow(Edits):
         """Draw a view's ImGui window, if it is shown."""
         self.shell.stage.draw(view, self)
 
-    def status(self, room: float | None = None) -> None:
-        """Draw the status line. room: its width; None for that of its window."""
+    def status(self) -> None:
+        """Draw the status line."""
         both, state = self.renderers, self.state
         image = both.shown_ray(state) if both.is_tracing else None
         verdict, failure = both.verdict(state), both.agreement.error
@@ -299,7 +297,6 @@ class MainWindow(Edits):
                 ),
             ),
             self.fonts,
-            room,
         )
         if pressed:
             show_differing(self)

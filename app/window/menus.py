@@ -4,7 +4,7 @@ views, the last steps.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from imgui_bundle import ImVec2, imgui
 
@@ -23,35 +23,22 @@ from . import bookmarks
 from .action_table import ACTIONS, MENUS
 
 HISTORY_STEPS = 15
-LEAST_STATUS_EM = 6.0
 ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
 
 
-def menu_bar(
-    window: Host, history: History, stage: Stage, status: Callable[[float], None] | None = None
-) -> None:
-    """Draw all menus. Call in HelloImGui's show_menus. A bar that is too narrow for them has one.
-
-    status: draws the status line into a room of this width; None if it has a bar of its own.
-    """
+def menu_bar(window: Host, history: History, stage: Stage) -> None:
+    """Draw all menus, in one of them if the bar is too narrow. Call in HelloImGui's show_menus."""
     name, style = layout.current().name, imgui.get_style()
-    gap, whole = 2 * style.item_spacing.x, imgui.get_window_width()
+    gap = 2 * style.item_spacing.x
     width = imgui.calc_text_size(name).x + imgui.get_font_size()  # with the arrow
-    left = whole - width - gap
-    fits = sum(imgui.calc_text_size(menu).x + gap for menu in MENUS[:-1]) <= left
-    if fits:
+    left = imgui.get_window_width() - width - gap
+    if sum(imgui.calc_text_size(menu).x + gap for menu in MENUS[:-1]) <= left:
         _menus(MENUS[:-1], window, history, stage)
+        imgui.set_cursor_pos_x(left)
+        _layouts(window, name)
     elif imgui.begin_menu("Menu"):
         _menus(MENUS, window, history, stage)
         imgui.end_menu()
-    right = left if fits else whole
-    room = right - imgui.get_cursor_pos_x() - 2 * gap
-    if status is not None and room > LEAST_STATUS_EM * imgui.get_font_size():
-        imgui.dummy((0, 0))
-        status(room)
-    if fits:
-        imgui.set_cursor_pos_x(left)
-        _layouts(window, name)
 
 
 def menu_button(window: Host, history: History, stage: Stage) -> None:

@@ -66,9 +66,6 @@ class Shell:
 
     # What actions ask for.
 
-    def focus_next(self, step: int) -> None:
-        self.stage.focus_next(step)
-
     def toggle_help(self) -> None:
         self.help = not self.help
 

@@ -58,14 +58,13 @@ def is_good_news(verdict: Verdict | None, failure: Exception | None) -> bool | N
     return verdict.agrees
 
 
-def status_line(status: Status, fonts: theme.Fonts, room: float | None = None) -> bool:
+def status_line(status: Status, fonts: theme.Fonts) -> bool:
     """Draw the line at the cursor. Return True if the button that shows the differing pixels was
-    pressed. room: the line's width in the menu bar; None in the status bar.
+    pressed.
     """
-    start, in_a_menu = imgui.get_cursor_pos_x(), room is not None
-    if room is None:
-        room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
-    imgui.push_font(fonts.text if in_a_menu else fonts.mono, 0.0)
+    start = imgui.get_cursor_pos_x()
+    room = imgui.get_window_width() - 2 * imgui.get_style().window_padding.x
+    imgui.push_font(fonts.mono, 0.0)
     parts = [] if status.brief else [(text, theme.TEXT) for text in time_texts(status)]
     good = theme.GOOD if status.agrees else theme.ERROR
     if status.agrees is None:

@@ -24,14 +24,13 @@ from lucida.app.ui import layout, theme
 from lucida.app.ui.focus_frame import FocusFrame
 from lucida.app.ui.focusing import Focusing
 from lucida.app.ui.instrument import Instrument
-from lucida.app.ui.surface import Target
 from lucida.renderer.files import SCENE_NAMES
 from lucida.renderer.images.png import write_png
 from lucida.renderer.system import compile_note
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import LucidaError
 
-from .canvas import WindowCanvas
+from .canvas import Target, WindowCanvas
 from .keys import KeyFrames
 from .main_window import MainWindow
 from .memory import FreedMemory

@@ -6,20 +6,18 @@ import math
 from typing import Any
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.pixels import Indexing, Pixel
+from lucida.renderer.camera.pixels import Pixel
 from lucida.renderer.images import to_srgb8
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import one_line
 
 
-def picked(
-    scene: Scene, camera: Camera, frame: Frame, pixel: Pixel, indexing: Indexing
-) -> dict[str, Any]:
+def picked(scene: Scene, camera: Camera, frame: Frame, pixel: Pixel) -> dict[str, Any]:
     """Return a pixel of a frame with all channels, as JSON values.
 
     object, t, z (the distance along -w), point and normal are None for the background; outside of
-    the lens, the ray is, too. indexing: of the printed pixel.
+    the lens, the ray is, too.
     """
     ray = camera.ray(*pixel, frame.size)
     color = frame.channel("color")[pixel]
@@ -29,8 +27,7 @@ def picked(
     is_seen = math.isfinite(ray.direction[0])
     point = ray.origin + t * ray.direction
     return {
-        "pixel": list(indexing.numbers(pixel)),
-        "pixels_from": indexing.value,
+        "pixel": list(pixel),
         "size": list(frame.size),
         "object": {"id": number, "name": scene.objects[number].name} if hit else None,
         "t": t if hit else None,
@@ -52,9 +49,8 @@ def as_text(seen: dict[str, Any]) -> str:
 
 def as_rows(seen: dict[str, Any]) -> list[tuple[str, str]]:
     """Return the same as names and texts."""
-    indexing, (width, height) = Indexing(seen["pixels_from"]), seen["size"]
-    where = indexing.words(indexing.pixel(*seen["pixel"]))
-    lines = [("pixel", f"{where} of {width}x{height}, {indexing.told}")]
+    (row, column), (width, height) = seen["pixel"], seen["size"]
+    lines = [("pixel", f"row {row}, column {column} of {width}x{height}, from 0")]
     if seen["object"] is None:
         where = "the background" if seen["ray"] else "outside of the lens"
         lines.append(("object", f"none: {where}"))

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.pixels import ENLARGEMENT, Indexing, Pixel
+from lucida.renderer.camera.pixels import ENLARGEMENT, Pixel
 from lucida.renderer.images.difference import (
     CAUSE_COLORS,
     SHADING_COLOR,
@@ -99,22 +99,19 @@ class Comparison:
         """The number of pixels that do not agree, explained or not."""
         return self.pixels - self.agree
 
-    def to_dict(self, indexing: Indexing = Indexing.ARRAY) -> dict[str, object]:
-        """Return everything except the images, as plain numbers. indexing: the numbering of its
-        pixels.
-        """
+    def to_dict(self) -> dict[str, object]:
+        """Return everything except the images, as plain numbers."""
         return {
             "size": list(self.size),
             **{name: getattr(self, name) for name in _REPORTED},
-            "pixels_from": indexing.value,
-            "worst": list(indexing.numbers(self.worst)),
+            "worst": list(self.worst),
             "nothing_hit": self.nothing_hit or None,
             "times_s": dict(self.times_s),
         }
 
-    def summary(self, indexing: Indexing = Indexing.ARRAY) -> str:
-        """Return a few lines for the command line. indexing: the numbering of its pixels."""
-        width, height = self.size
+    def summary(self) -> str:
+        """Return a few lines for the command line."""
+        (width, height), (row, column) = self.size, self.worst
         causes = ", ".join(f"{name} {count}" for name, count in self.explained.items() if count)
         return "\n".join(
             [
@@ -127,7 +124,7 @@ class Comparison:
                 f"largest errors where they agree: depth {self.max_depth_error:.1e} (relative), "
                 f"normal {self.max_normal_error:.1e}, color {self.max_color_error * 255:.2f}/255",
                 f"color everywhere: largest error {self.largest_color * 255:.1f}/255 "
-                f"at {indexing.words(self.worst)} ({indexing.told}), "
+                f"at row {row}, column {column} (from 0), "
                 f"RMS {self.rms_color * 255:.3f}/255",
                 "raster {raster:.1f} ms, ray {ray:.1f} ms".format(
                     **{name: 1e3 * time for name, time in self.times_s.items()}

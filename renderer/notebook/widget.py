@@ -23,7 +23,7 @@ from lucida.renderer.camera import navigation
 from lucida.renderer.camera.camera import Camera, check_camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size, has_pixel
-from lucida.renderer.camera.pixels import Indexing, Pixel
+from lucida.renderer.camera.pixels import Pixel
 from lucida.renderer.compare.pixel_report import as_rows, picked
 from lucida.renderer.files import load_scene
 from lucida.renderer.files.views import view_from_table, view_table
@@ -152,7 +152,7 @@ class Explorer(anywidget.AnyWidget):
         """Return the marked pixel's object, t, point, normal, color and ray; None without one."""
         if self.pixel is None:
             return None
-        return picked(self.scene, self.camera, self.frame, self.pixel, Indexing.ARRAY)
+        return picked(self.scene, self.camera, self.frame, self.pixel)
 
     def tell(self, problem: str) -> None:
         """Show a problem in the browser."""

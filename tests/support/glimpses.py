@@ -4,9 +4,8 @@ from collections.abc import Callable
 
 from imgui_bundle import imgui
 
-from lucida.app.ui.surface import Target
 from lucida.app.window import viewer
-from lucida.app.window.canvas import WindowCanvas
+from lucida.app.window.canvas import Target, WindowCanvas
 
 
 class Glimpses(WindowCanvas):

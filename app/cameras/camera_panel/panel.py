@@ -13,9 +13,10 @@ from imgui_bundle import imgui
 from lucida.app.cameras.editing import BASIS, Draft
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.camera import CameraPart
-from lucida.app.ui import pending, rows, theme
+from lucida.app.ui import rows, theme
 from lucida.app.ui.checks import radio_button
 from lucida.app.ui.fields import Scale
+from lucida.app.ui.messages import wrapped
 
 from .actions import go_home, go_to_canonical, switch_projection
 from .lens_section import lens_section
@@ -81,9 +82,9 @@ def _panel(
         wish = _resets() or wish
     state, draft, sections, wanted = _sections(state, draft, panel.sections, around)
     draft, wish = draft.following(state.camera), wanted or wish
-    if draft.error is not None:
-        leaves = wish is not None and wish.leaves
-        if pending.note(str(draft.error), "Back to the camera shown") or leaves:
+    if draft.error is not None:  # at the end: no number moves
+        wrapped(str(draft.error), theme.legible(theme.ERROR))
+        if imgui.button("Back to the camera shown") or (wish is not None and wish.leaves):
             draft = Draft.of(draft.camera)
     return state, PanelOutcome(draft, sections, wish)
 

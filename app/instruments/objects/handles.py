@@ -29,7 +29,6 @@ from lucida.renderer.system.memo import Memo
 
 LENGTH_PX, MOST_PART = 52.0, 0.24  # of a handle: at 100 %; its most, in parts of the shorter side
 WIDE_PART = 0.08  # of the view's width, where that is longer
-HEAD_PART = 0.12  # of a handle: its arrow's head at most
 # ImGuizmo's own colours of x, y, z and the held handle, and their replacements.
 COLORS = {
     **dict(zip(AXES.values(), palettes.CHANNELS, strict=True)),
@@ -112,7 +111,7 @@ class Handles:
             frame[:3, 3] = place
             asked = Handle(
                 shown.name, frame, gizmo.OPERATION.translate, gizmo.MODE.world,
-                2 * length / shown.extent.x, COLORS, HEAD_PART * length,
+                2 * length / shown.extent.x, COLORS,
             )  # fmt: skip
             found = manipulate(asked, shown.camera, shown.origin, shown.extent, reach)
         if place is None or found is None:

@@ -30,11 +30,10 @@ def _show(name: str, tip: str) -> Action:
     return choosing(MENU, f"Show {name}", f"outside.{name}", True, off=False, tip=tip)
 
 
-def _handles(name: str, kind: str, tip: str, keys: str = "") -> Action:
+def _handles(name: str, kind: str, tip: str, keys: str) -> Action:
     return choosing(
         MENU, f"Handles: {name}", "outside.gizmo", kind, keys, "none", tip=tip,
         separated=kind == "move",
-        can=lambda host: kind != "up" or host.state.options.outside.target is not None,
     )  # fmt: skip
 
 
@@ -57,7 +56,6 @@ OUTSIDE = (
     ),
     _handles("move eye", "move", "handles that move the eye of the camera", "G"),
     _handles("turn basis", "turn", "handles that turn the basis of the camera", "T"),
-    _handles("turn up", "up", "handles that turn the vector up, which makes the basis"),
     Action(
         MENU,
         "Fit all",

@@ -11,6 +11,7 @@ from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
+from lucida.renderer.camera.intrinsics import PixelOrigin
 
 from .diagram import (
     Dot,
@@ -23,6 +24,7 @@ from .diagram import (
     Segments,
     line,
     named_arrow,
+    named_dot,
     polyline,
     shares,
 )
@@ -40,6 +42,7 @@ from .frustum import (
 )
 from .lens_diagram import ideal_border, lens_pixel
 from .pixel_drawing import pixel_numbers, pixel_square
+from .pixel_plane import pixel_items
 from .ray_drawing import half_line, meetings, rays_to
 from .simple_camera import simple_camera
 
@@ -58,7 +61,7 @@ class Content:
     hits: the bundle's rays.
     marked: the marked pixel's ray.
     grid_parts: the maximum number of parts of a side of the grid.
-    base: the number of the first row and column.
+    base: the number of the first row and column. origin: where K has whole numbers.
     number_step: see pixel_numbers(); None if rows and columns are not numbered.
     meetings: the t of all points where the marked pixel's line meets objects.
     names_t: True to write the t of the marked pixel's hit.
@@ -73,6 +76,7 @@ class Content:
     marked: RayEnd | None = None
     grid_parts: int = MOST_GRID_LINES
     base: int = 1
+    origin: PixelOrigin = "center"
     number_step: int | None = None
     meetings: tuple[float, ...] = ()
     names_t: bool = True
@@ -100,7 +104,8 @@ def diagram(content: Content) -> list[Item]:
             items += _marked(content, marked)
     if options.simple:
         return items + simple_camera(camera, options.simple, measured=options.formula is None)
-    return items + _basis(camera, options, content.arrow) + _eye(camera, options)
+    items += _basis(camera, options, content.arrow) + _eye(camera, options)
+    return [*items, *pixel_items(camera, size, content.origin)] if options.pixels else items
 
 
 def plane_items(content: Content) -> list[Item]:
@@ -204,8 +209,7 @@ def _target(eye: Floats, target: Floats, up: Floats) -> list[Item]:
     """Return the target, and up if it has a length."""
     return [
         line("to target", "extra", eye, target, 1.6, dashed=True, layer=2),
-        Dot("target", "extra", target, 6.0),
-        Label("target", "extra", "target", target, away=target - WORLD_UP, strong=True),
+        *named_dot("target", "extra", "target", target, target - WORLD_UP),
         *(named_arrow("up", "extra", "up", eye, eye + up) if up.any() else ()),
     ]
 

@@ -60,7 +60,8 @@ def outside_figure(host: Host, size: Size, scale: float, page: Rgb) -> Figure:
     if plane is not None and texture is not None:
         pixels = np.frombuffer(texture.read(), np.uint8).reshape(*texture.size[::-1], 4)
         image = with_picture(image, fine_t, screen, plane, pixels[..., :3], options.image_opacity)
-    t = _drawn(rasterizer, ImageRequest(state.scene, camera, size))[1]
+    fine = image.shape[0] // size[1]
+    t = fine_t[fine // 2 :: fine, fine // 2 :: fine]
     items = project([*grown_diagram(content), *view.extensions.lines], screen)
     parts = figure_parts(items, partial(figure_color, ground=page), screen, t, plane)
     return Figure(size, parts, screen.unit_px, page, image)

@@ -159,33 +159,14 @@ def bundle_pixels(size: Size, counts: tuple[int, int]) -> NDArray[np.int64]:
     return np.stack(np.meshgrid(rows, columns, indexing="ij"), axis=-1).reshape(-1, 2)
 
 
-def pixel_seen(
-    camera: Camera, size: Size, origin: Floats, direction: Floats
-) -> tuple[Pixel, float] | None:
-    """Return the pixel of the image plane that a ray from elsewhere meets, and the ray's t there;
-    None if it meets none.
-    """
-    found = on_plane(camera, origin, direction)
-    if found is None:
-        return None
-    x, y, t = found
-    left, right, bottom, top = camera.viewport
-    row = math.floor((top - y) / (top - bottom) * size[1])
-    pixel = row, math.floor((x - left) / (right - left) * size[0])
-    return (pixel, t) if has_pixel(size, pixel) else None
-
-
-def on_plane(
-    camera: Camera, origin: Floats, direction: Floats
-) -> tuple[float, float, float] | None:
-    """Return where a ray from elsewhere meets the image plane, (x, y) in units of u and v, and the
-    ray's t there; None if that is not in front of it.
-    """
-    columns = np.column_stack([camera.u, camera.v, -np.asarray(direction)])
-    middle = image_point(camera.pinhole, 0.0, 0.0)
+def pixel_seen(camera: Camera, size: Size, origin: Floats, direction: Floats) -> Pixel | None:
+    """Return the pixel of the image plane that a ray from elsewhere meets; None without one."""
+    back = camera.camera_from_world[2]
+    depth = 0.0 if camera.is_parallel else camera.distance
     with np.errstate(all="ignore"):
-        scale = np.linalg.norm(columns, axis=0)
-        if not (scale > 0).all() or abs(np.linalg.det(columns / scale)) < 1e-9:
-            return None
-        x, y, t = (np.linalg.solve(columns / scale, origin - middle) / scale).tolist()
-    return (x, y, t) if t > 0 else None
+        t = -(back[:3] @ origin + back[3] + depth) / (back[:3] @ direction)
+        row, column, _ = camera.pinhole.project(origin + t * direction, size)
+    if not (t > 0 and np.isfinite([row, column]).all()):
+        return None
+    pixel = round(float(row)), round(float(column))
+    return pixel if has_pixel(size, pixel) else None

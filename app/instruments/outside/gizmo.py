@@ -130,7 +130,7 @@ class Handle(NamedTuple):
     """Handles of ImGuizmo.
 
     name: distinguishes them from others. frame: (4, 4), where they are, with their axes. length: in
-    clip space. colors: in place of ImGuizmo's. head_px: the most of an arrow's head.
+    clip space. colors: in place of ImGuizmo's.
     """
 
     name: str
@@ -139,7 +139,6 @@ class Handle(NamedTuple):
     mode: imguizmo.im_guizmo.MODE
     length: float
     colors: Mapping[Rgb8, ImVec4]
-    head_px: float = math.inf
 
 
 class Manipulated(NamedTuple):
@@ -169,7 +168,7 @@ def manipulate(
     gizmo.set_rect(origin.x, origin.y, extent.x, extent.y)
     gizmo.set_gizmo_size_clip_space(handle.length)
     gizmo.allow_axis_flip(False)
-    widen(handle.head_px)
+    widen()
     draw = imgui.get_window_draw_list()
     first = draw.vtx_buffer.size()
     gizmo.push_id(handle.name)
@@ -251,16 +250,12 @@ def escaped() -> bool:
     return True
 
 
-def widen(most_px: float = math.inf) -> None:
-    """Set the widths of the handles' lines. most_px: of an arrow's head, if handles are short."""
+def widen() -> None:
+    """Set the widths of the handles' lines."""
     style = gizmo.get_style()
-    head = min(theme.px(ARROW), most_px)
-    part = head / theme.px(ARROW)
-    style.translation_line_thickness = style.scale_line_thickness = part * theme.line_px(WIDTH)
-    style.translation_line_arrow_size = style.center_circle_size = head
-    style.scale_line_circle_size = head
-    ring = part * theme.line_px(RING)
-    style.rotation_line_thickness = style.rotation_outer_line_thickness = ring
+    style.translation_line_thickness = theme.line_px(WIDTH)
+    style.translation_line_arrow_size = style.center_circle_size = theme.px(ARROW)
+    style.rotation_line_thickness = style.rotation_outer_line_thickness = theme.line_px(RING)
 
 
 def matrix16(matrix: Floats) -> imguizmo.im_guizmo.Matrix16:

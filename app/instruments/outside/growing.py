@@ -31,6 +31,7 @@ from .diagram import (
     Role,
     Segments,
     line,
+    named_dot,
     term,
 )
 from .frustum import image_point, on_ray
@@ -235,16 +236,11 @@ def _turning(content: Content, pixel: Pixel, share: float) -> list[Item]:
     items += [
         *pixel_square(moved, size, pixel, 0.5),
         _ray(origin, origin + content.end * way),
-        Dot("p", "ray", origin, 6.0, layer=5),
-        Label("p", "ray", "vec(p)", origin, away=origin - v, strong=True),
+        *named_dot("p", "ray", "vec(p)", origin, origin - v, layer=5),
     ]
-    middle = eye - left * back
-    found = [
-        Term("w", "w", "-d vec(w)", eye, middle),
-        Term("u", "u", "u vec(u)", middle, middle + x * u),
-        Term("v", "v", "v vec(v)", middle + x * u, middle + x * u + y * v),
-        Term("d", "ray", "vec(d)", origin, origin + (left + share / camera.distance) * way),
-    ]
+    found = terms(camera, x, y, {"w": left, "u": 1.0, "v": 1.0, "ray": 0.0})
+    end = origin + (left + share / camera.distance) * way
+    found.append(Term("d", "ray", "vec(d)", origin, end))
     least = 1e-3 * camera.distance
     found = [one for one in found if float(np.linalg.norm(one.end - one.start)) > least]
     return items + _drawn(found, camera, x, y, lit="")

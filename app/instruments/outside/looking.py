@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Container
-from functools import lru_cache
+from functools import partial
 
 import numpy as np
 from imgui_bundle import ImVec2
@@ -38,14 +38,12 @@ NOTHING = np.zeros((0, 3))
 STILL_S = 0.25  # without a change of the other camera, before the view follows it
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
-LENS_RAYS = (3, 5)  # rows and columns of rays that show what a lens sees
 
 
 class Scopes:
     """The view of the present frame, computed again only if it must change.
 
-    moves: True if the other camera has just moved. waits: True if the outside camera stays where
-    it is although it does not see everything yet.
+    moves: True if the other camera has just moved.
     """
 
     def __init__(self) -> None:
@@ -55,16 +53,9 @@ class Scopes:
         self._changed_s = 0.0
         self._scope: Scope | None = None
         self._is_in_picture = Memo(is_in_picture)
-        self.moves = self.waits = False
+        self.moves = False
 
-    def of(
-        self,
-        host: Host,
-        area: Area,
-        more: Floats,
-        now_s: float,
-        held: bool = False,
-    ) -> Scope:
+    def of(self, host: Host, area: Area, more: Floats, now_s: float, held: bool = False) -> Scope:
         """Return scope_of(). While the other camera moves within sight, an outside camera that is
         not the user's own stays where it is. held: a mouse button is; a pause ends no drag.
         """
@@ -83,14 +74,10 @@ class Scopes:
             and looking is None
             and self._is_in_picture(inner, scope.shown, arrow_length(host.focus.reach))
         )
-        self.waits = stays and self.moves and inner != self._inner
         if scope is None or not (stays or inner == self._inner):
             self._scope = scope = scope_of(host, area, more)
             self._fixed, self._inner = fixed, inner
         return scope
-
-
-_kept_image_from_world = lru_cache(maxsize=1)(Camera.image_from_world)
 
 
 def is_in_picture(camera: Camera, looking: Camera, arrow: float = 1.0) -> bool:
@@ -98,7 +85,7 @@ def is_in_picture(camera: Camera, looking: Camera, arrow: float = 1.0) -> bool:
 
     arrow: from arrow_length().
     """
-    matrix = _kept_image_from_world(looking, (2, 2))  # it stays while the other one is dragged
+    matrix = looking.image_from_world((2, 2))
     x, y, t = matrix[:, :3] @ around(NOTHING, arrow, camera).T + matrix[:, 3:]
     edge = 1.0 if looking.is_parallel else t
     return bool((np.maximum(abs(x), abs(y)) <= edge).all())
@@ -161,20 +148,14 @@ def ray_ends(
     both, state = host.renderers, host.state
     options = state.options.outside
     marked = _ray_pixel(host, others) if options.ray else None
-    counts = options.bundle
-    if camera.lens is not None and options.volume and not any(counts):
-        counts = LENS_RAYS
-    pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, counts)]
+    pixels = [(int(i), int(j)) for i, j in bundle_pixels(size, options.bundle)]
     asked = (*pixels, marked) if marked is not None else tuple(pixels)
     known: dict[Pixel, float] = {}
     if not asked:
         hits.forget()
     else:
-
-        def depths(painter: RayPainter) -> dict[Pixel, float]:
-            return ray_depths(painter, camera, size, asked)
-
-        known = hits.follow((camera, size, asked), state.scene, both.live, depths) or {}
+        about = camera, size, asked
+        known = hits.follow(about, state.scene, both.live, partial(ray_depths, about)) or {}
     bundle = [RayEnd(pixel, known.get(pixel)) for pixel in pixels]
     if marked is None:
         return None, bundle
@@ -183,9 +164,13 @@ def ray_ends(
 
 
 def ray_depths(
-    painter: RayPainter, camera: Camera, size: Size, pixels: tuple[Pixel, ...]
+    about: tuple[Camera, Size, tuple[Pixel, ...]], painter: RayPainter
 ) -> dict[Pixel, float]:
-    """Return where the rays of pixels end; inf if they hit nothing, or are outside of the lens."""
+    """Return where rays end; inf if they hit nothing, or are outside of the lens.
+
+    about: their camera, its size, their pixels.
+    """
+    camera, size, pixels = about
     i, j = np.array(pixels).T
     ray = camera.ray(i, j, size)
     t = np.full(len(pixels), np.inf)

@@ -7,8 +7,6 @@ an image back.
 from __future__ import annotations
 
 import math
-import time
-from collections.abc import Hashable
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -21,7 +19,6 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Vector
 from lucida.renderer.camera.image_plane import Size
 
-WHEEL_PAUSE_S = 0.5  # turns of the wheel closer together are one step of undo
 STILL_PX = 4.0  # a press that moves less is a click
 
 
@@ -90,8 +87,6 @@ class Mouse:
 
     def __init__(self) -> None:
         self._grab: CameraDrag | None = None
-        self._wheel_number = 0
-        self._wheel_s = 0.0
 
     @property
     def dragging(self) -> bool:
@@ -106,16 +101,13 @@ class Mouse:
         still = math.hypot(moved.x, moved.y) < STILL_PX
         return imgui.is_item_deactivated() and still and imgui.is_mouse_released(0)
 
-    def follow(self, scope: Scope) -> tuple[Camera, Hashable]:
-        """Return the new outside camera, and the gesture that the change belongs to."""
+    def follow(self, scope: Scope) -> Camera:
+        """Return the new outside camera."""
         io = imgui.get_io()
         camera = self._drag(scope, io.mouse_pos)
         if imgui.is_item_hovered() and io.mouse_wheel and self._grab is None:
-            now_s = time.monotonic()
-            self._wheel_number += now_s - self._wheel_s > WHEEL_PAUSE_S
-            self._wheel_s = now_s
-            return self._wheel(scope, io), ("outside wheel", self._wheel_number)
-        return camera, None
+            return self._wheel(scope, io)
+        return camera
 
     def _drag(self, scope: Scope, mouse: ImVec2) -> Camera:
         camera = scope.camera

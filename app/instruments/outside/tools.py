@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 from imgui_bundle import ImVec2, ImVec4, imgui
 
-from lucida.app.state.bounds import whole_range_of
-from lucida.app.state.options.outside import OutsideOptions
 from lucida.app.ui import theme
 from lucida.app.ui.action import Action, draw_entry
 from lucida.app.ui.host import Host
@@ -23,7 +20,7 @@ from .looking import TRIAD_PX
 from .mouse import Scope
 from .paint import label_color
 from .painting import measured, rimmed_text
-from .placing import Box, Edges, LabelPlacer
+from .placing import Box, LabelPlacer
 from .projected import Primitive, Text
 
 MENU = "Instruments/In the outside view"
@@ -31,37 +28,17 @@ PAD = 6  # around the menu's button
 GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # of the axes
 
 
-def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> tuple[Edges, ...]:
-    """Draw the menu and the axes into the view's window. Return the boxes that they cover, in the
-    view's pixels.
-
-    actions: of the menu.
-    """
+def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> None:
+    """Draw the menu and the axes into the view's window. actions: of the menu."""
     pad, origin = theme.px(PAD), scope.origin
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     if imgui.button("Show##outside"):
         imgui.open_popup("outside menu")
-    covered = imgui.get_item_rect_max() - origin
     if imgui.begin_popup("outside menu"):
         for number, action in enumerate(one for one in actions if one.menu == MENU):
             draw_entry(action, host, first=number == 0)
-            if action.keys == "B":
-                _bundle_fields(host)
         imgui.end_popup()
     draw_axes(scope.shown, origin, scope.extent)
-    scale, right, around = framebuffer_scale(), scope.extent.x, 2 * theme.px(TRIAD_PX)
-    return (
-        (0.0, 0.0, scale * (covered.x + pad), scale * (covered.y + pad)),
-        (scale * (right - around), 0.0, scale * right, scale * around),
-    )
-
-
-def _bundle_fields(host: Host) -> None:
-    options, ends = host.state.options.outside, whole_range_of(OutsideOptions, "bundle")
-    imgui.set_next_item_width(theme.px(110))
-    changed, (rows, columns) = imgui.slider_int2("rows, columns", [*options.bundle], *ends)
-    if changed:
-        host.edit(replace(options, bundle=(rows, columns)))
 
 
 def draw_axes(camera: Camera, origin: ImVec2, extent: ImVec2) -> None:
@@ -106,11 +83,10 @@ def written(
     placer: LabelPlacer,
     view: Size,
     fonts: theme.Fonts,
-    tools: tuple[Edges, ...],
 ) -> list[Written]:
     """Return the texts of a diagram in their places.
 
-    placer: the view's own. view: its size in pixels. tools: boxes in it that are covered.
+    placer: the view's own. view: its size in pixels.
     """
     scale = framebuffer_scale()
     texts = [part for part in primitives if isinstance(part, Text)]
@@ -120,7 +96,7 @@ def written(
         pieces.append(measured(part.text, part.strong, size, fonts))
         room = scale * theme.px(7 if part.strong else 13)
         boxes.append(Box(scale * sum(piece[2] for piece in pieces[-1]), scale * size, room))
-    centers = placer.place(primitives, boxes, view, tools)
+    centers = placer.place(primitives, boxes, view)
     return [
         Written(
             part.role, ((x - box.width / 2) / scale, (y - box.height / 2) / scale), size, found,

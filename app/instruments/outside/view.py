@@ -17,7 +17,7 @@ import numpy as np
 from imgui_bundle import ImVec2, imgui
 
 from lucida.app.cameras.travel import Ends
-from lucida.app.images.picking import is_quick, line_meetings, nearest_hit, object_on_ray
+from lucida.app.images.picking import line_meetings, object_on_ray
 from lucida.app.images.ray_pictures import RayPictures
 from lucida.app.images.renderers import look_of
 from lucida.app.images.request import ImageRequest
@@ -59,8 +59,7 @@ from .looking import (
 )
 from .mouse import Area, Mouse, Scope
 from .paint import ground_of, layers
-from .pixel_plane import pixel_items
-from .placing import Edges, LabelPlacer
+from .placing import LabelPlacer
 from .projected import Primitive, project
 from .screen import OutsideScreen, image_plane
 from .tools import draw_labels, use_tools, written
@@ -106,7 +105,7 @@ class OutsideView(Instrument):
         self.hosted = Hosted(self.name)
         self._over = False  # whether the mouse is over the picture
         self._made: Drawing | None = None
-        self._scopes, self._placer, self._pixels = Scopes(), LabelPlacer(), Memo(pixel_items)
+        self._scopes, self._placer = Scopes(), LabelPlacer()
         self.extensions = Extensions()
         self.scope: Scope | None = None  # the view as it was last drawn
         self._meetings, self._drawn, self._written = Memo(_meetings), Memo(_drawn), Memo(written)
@@ -192,7 +191,6 @@ class OutsideView(Instrument):
         size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
         area = Area.of(size, imgui.get_cursor_screen_pos())
-        self.show("pixels", self._pixel_items(host))
         self._follow_mouse(host, self._scope(host, area))
         scope, draw = self._scope(host, area), imgui.get_window_draw_list()
         try:
@@ -207,11 +205,10 @@ class OutsideView(Instrument):
         draw.push_clip_rect(area.origin, area.far, True)
         ground = ground_of(host.state.scene.background, host.state.images.exposure_ev)
         self._gizmo.follow(host, scope, ground)
-        tools: tuple[Edges, ...] = ()
-        if host.has_tools:
-            tools = use_tools(host, scope, self.actions)
-        labels = self._written(self._made.primitives, self._placer, size, host.fonts, tools)
+        labels = self._written(self._made.primitives, self._placer, size, host.fonts)
         draw_labels(labels, area.origin)
+        if host.has_tools:
+            use_tools(host, scope, self.actions)
         self.hosted.draw(host, scope, self._over)
         draw.pop_clip_rect()
 
@@ -219,12 +216,6 @@ class OutsideView(Instrument):
         now_s, held = time.monotonic(), imgui.is_any_mouse_down()
         self.scope = self._scopes.of(host, area, self.extensions.points, now_s, held)
         return self.scope
-
-    def _pixel_items(self, host: Host) -> tuple[Item, ...]:
-        both, options = host.renderers, host.state.options
-        if not options.outside.pixels or not min(both.size):
-            return ()
-        return self._pixels(both.camera(host.state), both.size, options.pixel_origin)
 
     def _follow_mouse(self, host: Host, scope: Scope) -> None:
         imgui.set_cursor_screen_pos(scope.origin)
@@ -243,12 +234,12 @@ class OutsideView(Instrument):
         right, down = focused_steps()
         if right or down:
             camera = orbited(scope.camera, scope.center, right * TURN_RAD, -down * TURN_RAD)
-            host.apply(self.with_own_camera(host.state, camera), (self.name, "turned"))
+            host.apply(self.with_own_camera(host.state, camera))
             return
         was_dragging = self._mouse.dragging
-        camera, gesture = self._mouse.follow(scope)
+        camera = self._mouse.follow(scope)
         if camera != scope.camera:
-            host.apply(self.with_own_camera(host.state, camera), gesture)
+            host.apply(self.with_own_camera(host.state, camera))
         clicked = self._mouse.clicked()
         if self.hosted.take_click(host, scope, clicked, partial(self.object_under, host)):
             return
@@ -260,18 +251,12 @@ class OutsideView(Instrument):
             host.hover(self.name, pixel)
 
     def _pixel_under(self, host: Host, scope: Scope) -> Pixel | None:
-        """Return the pixel of the image plane that is visible under the mouse."""
+        """Return the pixel of the image plane under the mouse."""
         both, state = host.renderers, host.state
         if not (state.options.outside.image or state.options.outside.grid):
             return None
         ray = scope.ray(imgui.get_mouse_pos())
-        found = pixel_seen(both.camera(state), both.size, *ray)
-        is_hidden = (
-            found is not None
-            and is_quick(state.scene)
-            and nearest_hit(state.scene, *ray)[0] <= found[1]
-        )
-        return None if found is None or is_hidden else found[0]
+        return pixel_seen(both.camera(state), both.size, *ray)
 
     def _picture(self, host: Host, scope: Scope) -> Drawing:
         """Return the present picture; the last one if nothing has changed."""
@@ -290,7 +275,7 @@ class OutsideView(Instrument):
             ImageRequest(state.scene, camera, size), both.textures.rasterizer, tools.overlay,
             refines=not moves,
         )  # fmt: skip
-        if self._scopes.waits or moves or not tools.ground.settled:
+        if moves or not tools.ground.settled:
             host.animate()
         near, units = nearest(camera, scope), units_px(scope.extent)
         content = self.content(host, OutsideScreen(camera, size, near, *units))
@@ -322,6 +307,7 @@ class OutsideView(Instrument):
             marked,
             grid_parts=int(side_px / (GRID_PX * screen.unit_px)),
             base=state.options.indexing.value,
+            origin=state.options.pixel_origin,
             number_step=None if host.has_tools or not options.grid else step,
             meetings=found,
             names_t=host.has_tools,

@@ -16,7 +16,7 @@ from lucida.app.cameras.taken import is_fitted
 from lucida.app.instruments.outside.cloud import Cloud
 from lucida.app.instruments.outside.diagram import Segments
 from lucida.app.instruments.outside.extent import framed, looked_from
-from lucida.app.instruments.outside.frustum import border
+from lucida.app.instruments.outside.frustum import border, point_at
 from lucida.app.state.app_state import AppState
 from lucida.app.state.paths import stored
 from lucida.renderer.camera.camera import Camera
@@ -167,12 +167,8 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
 def _border_rays(camera: Camera, parts: int) -> tuple[Floats, Floats]:
     """Return the rays around a camera's image. parts: of a side, 1 for the corners."""
     x, y = border(camera, parts).T
-    if camera.is_parallel:
-        across = x[:, None] * np.asarray(camera.u) + y[:, None] * np.asarray(camera.v)
-        return np.asarray(camera.eye) + across, np.tile(-np.asarray(camera.w), (len(x), 1))
-    ways = camera.direction(x, y)
-    origins = np.tile(np.asarray(camera.eye), (len(x), 1))
-    return origins, ways / np.linalg.norm(ways, axis=1).mean()
+    origins, ends = (point_at(camera, x, y, t) for t in (0.0, 1.0))
+    return origins, (ends - origins) / np.linalg.norm(ends - origins, axis=1).mean()
 
 
 def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
@@ -189,11 +185,11 @@ def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
 
 
 def frusta(
-    poses: PoseSet, length: float, numbers: Sequence[int] | NDArray[np.int64] | slice = slice(None)
+    poses: PoseSet, numbers: Sequence[int] | NDArray[np.int64] | slice = slice(None)
 ) -> Floats:
-    """Return lines (n * poses.lines, 2, 3) of these cameras. length: world units."""
+    """Return lines (n * poses.lines, 2, 3) of these cameras."""
     origins = poses.origins[numbers]
-    ends = origins + length * poses.ways[numbers]
+    ends = origins + poses.length * poses.ways[numbers]
     corners, at = ends[:, :: poses.parts], poses.parts // 2
     middle_top, middle_bottom = (corners[:, ::2] + corners[:, 1::2]).swapaxes(0, 1) / 2
     if at:  # of a curve
@@ -211,10 +207,10 @@ def frusta(
     return lines.reshape(-1, 2, 3)
 
 
-def cloud(poses: PoseSet, length: float, with_points: bool) -> Cloud:
-    """Return a whole set as a cloud. length: of the frusta, relative to what suits the set."""
-    size = length * poses.length
-    lines = Segments("poses", "pose", frusta(poses, size), 1.3, 0.9)
+def cloud(poses: PoseSet, with_points: bool) -> Cloud:
+    """Return a whole set as a cloud."""
+    size = poses.length
+    lines = Segments("poses", "pose", frusta(poses), 1.3, 0.9)
     points, colors = (poses.points, poses.colors) if with_points else NO_POINTS
     eyes = poses.origins.mean(axis=1)
     low, high = (poses.low, poses.high) if with_points else (eyes.min(axis=0), eyes.max(axis=0))
@@ -235,8 +231,7 @@ def with_set(state: AppState, poses: PoseSet, scene: Scene | None) -> AppState:
 
 def with_set_framed(state: AppState, poses: PoseSet, size: Size | None) -> AppState:
     """Return the state in which the outside view, of `size`, sees all of the set."""
-    options = state.options.poses
-    points = cloud(poses, options.length, options.points).around
+    points = cloud(poses, state.options.poses.points).around
     way = looked_from(poses.up, np.asarray(state.camera.w))
     width, height = size or (4, 3)
     camera = framed(points, way, width / height, up=poses.up)

@@ -11,7 +11,6 @@ from typing import Literal
 import moderngl
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.state.bounds import range_of
 from lucida.app.state.options.poses import PosesOptions
 from lucida.app.ui import theme
 from lucida.app.ui.checks import checkbox
@@ -70,16 +69,6 @@ def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish,
         ("open", "Open...", "another set"),
         ("close", "Close", "no cameras but the window's own"),
     )
-    width = 7.5 * imgui.get_font_size()
-    follow(width)
-    imgui.set_next_item_width(width)
-    changed, length = imgui.slider_float(
-        "##length", options.length, *range_of(PosesOptions, "length"), "length %.2f",
-        imgui.SliderFlags_.logarithmic,
-    )  # fmt: skip
-    tip("how long the frusta are drawn: 1 fits the set")
-    if changed:
-        options = replace(options, length=length)
     aligned = "the points as each camera sees them: they should line up with the photograph"
     if len(poses.points):
         points = _switch("points", options.points, "the reconstruction's points")

@@ -1,11 +1,7 @@
-"""The photographs of a set's cameras: their paths, and small pictures of them, made on a thread.
-
-The last pictures are cached, at the size of the panel.
-"""
+"""The photographs of a set's cameras: their paths, and small pictures of them, made on a thread."""
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -19,7 +15,6 @@ from .model import PoseSet
 from .reprojected import with_points
 
 SIDE_PX = 800  # a picture's longer side, at most
-KEPT = 24  # pictures: at most 50 MB
 
 PhotoKey = tuple[PoseSet, int, bool]
 
@@ -45,7 +40,7 @@ class Photographs:
 
     def __init__(self) -> None:
         self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs")
-        self._kept: OrderedDict[PhotoKey, Photograph] = OrderedDict()
+        self._latest: tuple[PhotoKey, Photograph] | None = None
         self._asked: PhotoKey | None = None
 
     @property
@@ -59,23 +54,19 @@ class Photographs:
         """
         outcome = self._work.poll()
         if outcome is not None and outcome.value is not None:
-            read, photograph = outcome.value
-            self._kept[read] = photograph
-            self._asked = None if read == self._asked else self._asked
-            while len(self._kept) > KEPT:
-                self._kept.popitem(last=False)
+            self._latest = outcome.value
+            self._asked = None if self._latest[0] == self._asked else self._asked
         key = poses, number, dotted
-        found = self._kept.get(key)
-        if found is not None:
-            self._kept.move_to_end(key)
-        elif self._asked != key:
+        if self._latest is not None and self._latest[0] == key:
+            return self._latest[1]
+        if self._asked != key:
             self._asked = key
             self._work.submit(lambda: (key, pictured(*key)))
-        return found
+        return None
 
     def forget(self) -> None:
-        """Discard all pictures, for another set."""
-        self._kept.clear()
+        """Discard the picture, for another set."""
+        self._latest = None
         self.want_none()
 
     def want_none(self) -> None:

@@ -1,7 +1,4 @@
-"""Reading files of cameras: recognise them by name, read and prepare them on a thread.
-
-The last sets are cached, so that undo finds them at once.
-"""
+"""Reading files of cameras: recognise them by name, read and prepare them on a thread."""
 
 from __future__ import annotations
 
@@ -17,7 +14,6 @@ from lucida.renderer.system.errors import LucidaError, describe, one_line
 
 from .model import PoseSet, load_poses, pose_set
 
-KEPT = 2
 # Of files that hold no scene.
 CAMERA_ENDINGS = (".json", ".yml", ".yaml", ".txt", ".bin", ".xml", ".ini")
 _LARGEST_LOOKED_AT = 1 << 20  # bytes of a script, or of a model's table: without meshes it is small
@@ -35,7 +31,7 @@ class PosesReader:
 
     def __init__(self) -> None:
         self._work: Background[_Read] = Background("lucida-poses")
-        self._sets: dict[str, PoseSet] = {}
+        self._latest: PoseSet | None = None
         self.problems: dict[str, str] = {}
         self._asked = ""
 
@@ -61,11 +57,12 @@ class PosesReader:
         if not path:
             self._asked = ""
             return None
-        found = self._sets.get(path)
-        if self._asked != path and found is None and path not in self.problems:
+        if self._latest is not None and str(self._latest.path) == path:
+            return self._latest
+        if self._asked != path and path not in self.problems:
             self._asked = path
             self._work.submit(lambda: _read(path))
-        return found
+        return None
 
     def close(self) -> None:
         self._work.close()
@@ -75,10 +72,7 @@ class PosesReader:
             self.problems[path] = problem
             return
         self.problems.pop(path, None)
-        self._sets.pop(path, None)
-        self._sets[path] = poses
-        while len(self._sets) > KEPT:
-            self._sets.pop(next(iter(self._sets)))
+        self._latest = poses
 
 
 def is_cameras(source: str) -> bool:

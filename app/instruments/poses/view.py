@@ -242,12 +242,11 @@ class PosesView(Instrument):
         self._outside.show(POSES, ())
 
     def _show_outside(self, host: Host, poses: PoseSet) -> None:
-        options = host.state.options.poses
         chosen = self.chosen(host.state)
         self._outside.show(
             POSES,
-            self._items(poses, options.length, chosen),
-            cloud=self._cloud(poses, options.length, options.points),
+            self._items(poses, chosen),
+            cloud=self._cloud(poses, host.state.options.poses.points),
         )
 
 
@@ -257,18 +256,18 @@ def _upload(uploads: Uploads, found: Photograph) -> None:
         uploads.put(PHOTO, found.pixels)
 
 
-def _outside_items(poses: PoseSet, length: float, chosen: int) -> tuple[Item, ...]:
+def _outside_items(poses: PoseSet, chosen: int) -> tuple[Item, ...]:
     """Return the frustum of the chosen camera, distinct from the others, and its name."""
     if chosen < 0:
         return ()
     role: Role = "other"
-    size, origins = length * poses.length, poses.origins[chosen]
-    ends, eye = origins + size * poses.ways[chosen], origins.mean(axis=0)
+    origins = poses.origins[chosen]
+    ends, eye = origins + poses.length * poses.ways[chosen], origins.mean(axis=0)
     image = (Face("other pose", role, ends, 0.22),) if poses.parts == 1 else ()
     corner = ends[poses.parts]  # the name is beyond a corner of the image
     return (
         *image,
-        Segments("other pose", role, frusta(poses, size, [chosen]), 2.6, hidden=0.7, layer=2),
+        Segments("other pose", role, frusta(poses, [chosen]), 2.6, hidden=0.7, layer=2),
         Dot("other pose", role, eye, 3.5),
         Label("other pose", role, one_line(poses.names[chosen]), corner, away=eye),
     )

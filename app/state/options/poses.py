@@ -15,13 +15,11 @@ class PosesOptions(OptionPart):
     file: of the set, an absolute path, as stored() of state/paths.py writes it, "" for none; in a
     lecture, a file or folder next to the lecture's.
     pose: the number of the selected camera, from 0; -1 for none.
-    length: of the frusta, relative to the length that suits the set.
     points: draw a reconstruction's points.
     reprojected: draw them on the photographs.
     """
 
     file: Annotated[str, Beside(("",))] = ""
     pose: Annotated[int, Range(-1, 10_000_000)] = -1
-    length: Annotated[float, Range(0.05, 20.0)] = 1.0
     points: bool = True
     reprojected: bool = False

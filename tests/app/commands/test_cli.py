@@ -141,7 +141,10 @@ class TestMistakes:
             ("pick spheres 1.5 3", "argument ROW: '1.5' is not a whole number; give e.g. 12"),
             ("pick spheres 720 0", "ROW: 720 is outside an image of 1280x720; give 0 to 719"),
             ("pick spheres 0 9 --size 9x9", "COLUMN: 9 is outside an image of 9x9; give 0 to 8"),
-            ("pick spheres 0 1 --from 1", "ROW: 0 is outside an image of 1280x720; give 1 to 720"),
+            (
+                "pick spheres 0 1 --from 1",
+                "--from: is no longer part of Lucida; commands count rows",
+            ),
             ("scenes all", "scenes: is no longer part of Lucida; `lucida scene` lists"),
             ("doctor --some", "unrecognized arguments: --some; see 'lucida doctor --help'"),
             ("install-desktop here", "install-desktop: is no longer part of Lucida; start lucida"),

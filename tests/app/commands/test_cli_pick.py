@@ -41,14 +41,7 @@ def test_a_pixel_is_the_image_s(capsys, image):
     assert np.isclose(seen["z"], camera.z_from_t(frame.depth, SIZE)[PIXEL])
     assert np.allclose(seen["point"], ray.origin + frame.depth[PIXEL] * ray.direction)
     assert seen["ray"]["direction"] == ray.direction.tolist()
-    assert (seen["pixel"], seen["pixels_from"], seen["size"]) == ([20, 30], 0, [64, 36])
-
-
-def test_from_1_is_the_same_pixel(capsys):
-    zero, one = pick(capsys, "20", "30"), pick(capsys, "21", "31", "--from", "1")
-    assert one["pixel"] == [21, 31]
-    for name in ("t", "object", "point", "ray"):
-        assert one[name] == zero[name]
+    assert (seen["pixel"], seen["size"]) == ([20, 30], [64, 36])
 
 
 def test_the_background_has_no_object(capsys):
@@ -59,9 +52,9 @@ def test_the_background_has_no_object(capsys):
 
 
 def test_the_text_has_every_quantity_and_says_from_where(capsys):
-    assert main(["pick", "spheres", "21", "31", "--from", "1", "--size", "64x36"]) == 0
+    assert main(["pick", "spheres", "20", "30", "--size", "64x36"]) == 0
     lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines()[:6])
-    assert lines["pixel"] == "row 21, column 31 of 64x36, from 1"
+    assert lines["pixel"] == "row 20, column 30 of 64x36, from 0"
     assert list(lines) == ["pixel", "object", "t", "z", "point", "normal"]
 
 

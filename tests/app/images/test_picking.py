@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lucida import Tracer
-from lucida.app.images.picking import MOST_OBJECTS, is_quick, object_on_ray
+from lucida.app.images.picking import object_on_ray
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.scene import Scene, SceneObject, Sphere, shapes
 
@@ -44,12 +44,3 @@ def test_what_is_behind_is_not_met_and_inside_counts():
 def test_a_pixel_outside_of_the_lens_shows_no_object():
     scene, nowhere = load_scene("still-life"), np.full(3, np.nan)
     assert object_on_ray(scene, np.zeros(3), nowhere) is None
-
-
-def test_many_objects_or_triangles_are_not_quick():
-    """Or each frame of a drag would wait for them."""
-    assert all(is_quick(load_scene(name)) for name in BUILTIN_SCENES)
-    ball = SceneObject(Sphere((0, 0, 0), 1.0))
-    assert is_quick(Scene((ball,) * MOST_OBJECTS))
-    assert not is_quick(Scene((ball,) * (MOST_OBJECTS + 1)))
-    assert not is_quick(Scene((SceneObject(shapes.torus(1.0, 0.3, 150, 150)),)))

@@ -12,7 +12,6 @@ from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Bookmark
 from lucida.app.state.session import (
     LARGEST_BYTES,
-    NEAREST,
     VERSION,
     Arrangement,
     NewerVersionError,
@@ -20,7 +19,6 @@ from lucida.app.state.session import (
     session_of,
     to_bytes,
 )
-from lucida.app.ui.layout import CHOICES
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
@@ -61,16 +59,6 @@ def test_a_lens_comes_back_and_a_damaged_one_is_refused(state):
     assert from_bytes(data).view.camera == camera
     with pytest.raises(LucidaError, match=r"lens\.model.*'fog' is unknown"):
         from_bytes(data.replace(b'"brown"', b'"fog"'))
-
-
-@pytest.mark.parametrize(
-    ("old", "nearest"),
-    [("Presentation", "Side by side"), ("Scene", "Four views"), ("Laboratory", "Loops")],
-)
-def test_a_layout_that_left_is_the_nearest_one(state, old, nearest):
-    read = from_bytes(to_bytes(session_of(state, replace(ARRANGEMENT, layout=old)))).arrangement
-    assert read == replace(ARRANGEMENT, layout=nearest)
-    assert {one.name for one in CHOICES} >= set(NEAREST.values())
 
 
 @given(

@@ -11,4 +11,4 @@ def test_the_sheet_holds_what_mouse_and_keyboard_do_in_each_instrument() -> None
     rows = [row for part in parts.values() for row in part]
     for instrument in INSTRUMENTS:
         assert set(rows) >= {*instrument.mouse, *instrument.keyboard}
-    assert ("Space in the stepper", "play and pause") in parts["Everywhere"]
+    assert ("Right in the stepper", "one line on") in parts["Everywhere"]

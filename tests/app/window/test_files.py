@@ -9,7 +9,7 @@ from opened_things import found
 from waiting import wait_for
 
 from lucida.app.ui.recent import MOST, RecentFiles
-from lucida.app.ui.surface import Target
+from lucida.app.window.canvas import Target
 from lucida.app.window.capture import cut, free_path
 from lucida.app.window.files import Files
 from lucida.app.window.opening import OpenedScene, OpenedView, open_sources

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import os
-import threading
 from dataclasses import replace
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -17,7 +15,7 @@ from lucida.app.state.app_state import AppState, History
 from lucida.app.ui import watching
 from lucida.app.ui.watching import LOOK_S, REST_S, SceneWatch
 from lucida.app.window import opening
-from lucida.app.window.files import Files, outside_question
+from lucida.app.window.files import Files
 from lucida.app.window.opening import Opened, OpenedScene
 from lucida.app.window.taking import take_newer, take_opened
 from lucida.renderer.editing.changing import set_scene_field
@@ -185,51 +183,14 @@ def test_what_the_window_saves_itself_is_not_read_again(path, files):
     assert follow(files, saved) is None
 
 
-def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_asked_about(path, files):
+def test_a_dropped_scene_that_now_names_a_file_elsewhere_is_refused(path, files):
     (path.parent.parent / "out.obj").write_text(TRIANGLE)
     files.open_all([str(path)], dropped=True)
     scene = found(loaded(files), OpenedScene).scene
-    assert scene is not None
     follow(files, scene)
     path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
     assert follow(files, scene) is None
-    assert files.question is not None
-    outside = [path.parent.parent / "out.obj"]
-    assert files.question.text == outside_question(path.name, outside)
-    (yes,) = files.question.answers.values()
-    yes()
-    opened = loaded(files)
-    assert found(opened, OpenedScene).agreed == frozenset([path.parent.parent / "out.obj"])
-
-
-def test_each_question_about_files_elsewhere_opens_what_it_asked_about(path, files, monkeypatch):
-    """The shown scene is read again, and asks, while another one is still being loaded."""
-    (path.parent.parent / "out.obj").write_text(TRIANGLE)
-    other = path.with_name("other.toml")
-    other.write_text(MODEL.replace("m.obj", "../out.obj"))
-    files.open_all([str(path)], dropped=True)
-    shown = found(loaded(files), OpenedScene).scene
-    assert shown is not None
-    files.follow(shown)
-    gate, load = threading.Event(), opening.load_scene
-
-    def slow(source):
-        if Path(source) == other:
-            gate.wait(60)
-        return load(source)
-
-    monkeypatch.setattr(opening, "load_scene", slow)
-    path.write_text(BALL + MODEL.replace("m.obj", "../out.obj"))
-    for _ in range(4):
-        files.follow(shown)
-    files.open_all([str(other)], dropped=True)
-    for name in (path.name, other.name):
-        while files.question is None or not files.question.text.startswith(name):
-            files.poll()
-        gate.set()
-    (yes,) = files.question.answers.values()
-    yes()
-    assert loaded(files).sources == (str(other),)
+    assert "outside of its folder" in files.message
 
 
 class Window:

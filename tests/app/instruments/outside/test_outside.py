@@ -125,7 +125,7 @@ def test_rays_end_where_the_image_sees_something() -> None:
     scene = Scene((SceneObject(Sphere((0.0, 0.0, -3.0), 1.0)),))
     camera, pixels = Camera.canonical(), ((0, 0), (SIZE[1] // 2, SIZE[0] // 2))
     with Tracer(scene, threads=1) as tracer:
-        found = ray_depths(RayPainter(scene, tracer, lambda: True), camera, SIZE, pixels)
+        found = ray_depths((camera, SIZE, pixels), RayPainter(scene, tracer, lambda: True))
         depth = tracer.render(camera, SIZE, ("depth",)).channel("depth")
     assert found == pytest.approx({pixel: float(depth[pixel]) for pixel in pixels})
     assert math.isinf(found[pixels[0]]) and math.isfinite(found[pixels[1]])

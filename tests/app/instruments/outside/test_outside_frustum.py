@@ -55,8 +55,7 @@ class TestSolid:
         normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])
         steep = abs(normal @ way) / (np.linalg.norm(normal) * max(np.linalg.norm(way), 1e-9))
         assume(steep > 0.05)
-        pixel, t = pixel_seen(camera, SIZE, np.asarray(origin), way) or ((-1, -1), 0.0)
-        assert pixel == (i, j) and t == pytest.approx(1.0)
+        assert pixel_seen(camera, SIZE, np.asarray(origin), way) == (i, j)
         assert pixel_seen(camera, SIZE, np.asarray(origin), -way) is None
 
     def test_no_pixel_beside_the_plane_nor_along_it(self) -> None:

@@ -60,14 +60,12 @@ def test_the_view_stays_as_long_as_the_other_camera_is_in_its_picture(made):
     for step in range(8):
         scope = scopes.of(host(step), PLACE, NOTHING, step / 60)
         assert scope.of == step // REACH * REACH
-        assert scopes.waits == (step % REACH > 0)
     assert scopes.moves
     for now_s in (7 / 60, 7 / 60 + STILL_S + 0.01):  # the button is held: a pause ends no drag
         scope = scopes.of(host(7), PLACE, NOTHING, now_s, True)
         assert scope.of == 6
-    assert not scopes.waits
     scope = scopes.of(host(7), PLACE, NOTHING, 7 / 60 + STILL_S + 0.01)
-    assert scope.of == 7 and not (scopes.moves or scopes.waits)
+    assert scope.of == 7 and not scopes.moves
     assert made == [0, 3, 6, 7]
 
 
@@ -94,7 +92,6 @@ def test_the_users_own_camera_waits_for_nothing(made):
     scopes = Scopes()
     for step in range(4):
         scopes.of(host(step, own="mine"), PLACE, NOTHING, step / 60)
-        assert not scopes.waits
     assert made == list(range(4))
 
 

@@ -28,7 +28,7 @@ from lucida.renderer.scene import Scene, View
 
 def test_a_frustum_s_edges_are_the_rays_through_the_image_s_corners() -> None:
     poses = a_set(4)
-    lines = frusta(poses, 0.5).reshape(4, LINES, 2, 3)
+    lines = frusta(poses).reshape(4, LINES, 2, 3)
     for posed, own in zip(poses.cameras, lines, strict=True):
         camera = posed.camera
         corners = plane_corners(camera)  # upper left, upper right, lower right, lower left
@@ -38,7 +38,7 @@ def test_a_frustum_s_edges_are_the_rays_through_the_image_s_corners() -> None:
         wanted = corners - camera.eye
         assert np.allclose(np.cross(ways, wanted), 0, atol=1e-12)
         assert (np.einsum("ij,ij->i", ways, wanted) > 0).all()
-        assert np.linalg.norm(ways, axis=1).mean() == pytest.approx(0.5)
+        assert np.linalg.norm(ways, axis=1).mean() == pytest.approx(poses.length)
         assert np.allclose(own[4:8, 0], edges[:, 1])  # the image's sides go round its corners
         assert np.allclose(own[4:8, 1], np.roll(edges[:, 1], -1, axis=0))
         tip = own[8:, 1]
@@ -50,8 +50,8 @@ def test_a_parallel_camera_has_a_box() -> None:
     posed = ring(1)[0]
     camera = replace(posed.camera, projection="parallel")
     poses = pose_set(Path("x.json"), CameraSet("nerf", (replace(posed, camera=camera),)))
-    edges = frusta(poses, 0.5)[:4]
-    assert np.allclose(edges[:, 1] - edges[:, 0], -0.5 * np.asarray(camera.w))
+    edges = frusta(poses)[:4]
+    assert np.allclose(edges[:, 1] - edges[:, 0], -poses.length * np.asarray(camera.w))
     sides = edges[:, 0] - camera.eye
     assert np.allclose(sides @ np.asarray(camera.u), [camera.viewport[k] for k in (0, 1, 1, 0)])
     assert np.allclose(sides @ np.asarray(camera.v), [camera.viewport[k] for k in (3, 3, 2, 2)])
@@ -82,16 +82,13 @@ def test_colours_stay_with_their_points() -> None:
 def test_a_cloud_is_of_what_is_to_be_seen() -> None:
     places = np.array([[0.0, 9.0, 0.0], [0.0, -2.0, 0.0]])
     poses = a_set(4, points=places)
-    whole, bare = cloud(poses, 1.0, True), cloud(poses, 1.0, False)
-    assert whole.points is poses.points  # a length that changes does not move the points
+    whole, bare = cloud(poses, True), cloud(poses, False)
+    assert whole.points is poses.points
     assert bare.points is NO_POINTS[0]
     assert len(whole.lines.segments) == 4 * LINES
     low, high = whole.around.min(axis=0) - 0.2, whole.around.max(axis=0) + 0.2
     assert ((whole.lines.segments >= low) & (whole.lines.segments <= high)).all()
     assert bare.around[:, 1].max() < 2
-    longer = cloud(poses, 2.0, False).lines.segments
-    edges = [lines[:, 1] - lines[:, 0] for lines in (longer, bare.lines.segments)]
-    assert np.allclose(edges[0], 2 * edges[1])
 
 
 def test_names_leave_out_the_folder_that_all_are_in() -> None:
@@ -121,9 +118,9 @@ def test_a_lens_bends_the_frusta_and_is_kept() -> None:
         ways = poses.ways[0] / np.linalg.norm(poses.ways[0], axis=1, keepdims=True)
         corners = ways[:: poses.parts]
         assert np.allclose(corners @ -np.asarray(camera.w), math.cos(angle), atol=1e-3)
-        sides = frusta(poses, 2.0)[4:-2]
+        sides = frusta(poses)[4:-2]
         assert len(sides) == 4 * poses.parts == len(ways) and poses.parts > 1
-        assert np.allclose(sides[:, 0], poses.origins[0] + 2 * poses.ways[0])
+        assert np.allclose(sides[:, 0], poses.origins[0] + poses.length * poses.ways[0])
         assert poses.view(0).camera.lens == Lens(model)
 
 

@@ -50,7 +50,7 @@ def drive_the_field_of_view_is_typed(d):
     d.type("field of view", "200")
     assert "between 0 and 180" in str(d.window.views["Camera"].draft.error)
     assert d.state.camera == camera
-    d.click("//###pending/Back to the camera shown")
+    d.click("//Camera/Back to the camera shown")
 
 
 def drive_a_step_shows_parts_of_the_panel(d):
@@ -79,7 +79,7 @@ def drive_near_and_far_are_switched_on_and_cut(d):
     d.type("far plane", "8")
     assert "not above near" in str(d.window.views["Camera"].draft.error)
     assert d.state.camera.far == 11
-    d.click("//###pending/Back to the camera shown")
+    d.click("//Camera/Back to the camera shown")
     d.click("//Camera/near")
     d.click("//Camera/far")
     assert d.state.camera == d.start.camera
@@ -120,7 +120,7 @@ def drive_a_lens_is_chosen_dragged_and_taken_off(d):
     assert d.state.camera.lens == Lens("fov", {"omega": 1.0})
     d.type("lens.omega", "4")
     assert "not between 0 and pi" in str(d.window.views["Camera"].draft.error)
-    d.click("//###pending/Back to the camera shown")
+    d.click("//Camera/Back to the camera shown")
     d.press(Key.p)
     assert d.state.camera.is_parallel
     assert d.state.camera.lens is None

@@ -15,8 +15,6 @@ from lucida.app.instruments.outside.gizmo import LENGTH
 from lucida.app.instruments.outside.paint import ground_of
 from lucida.app.instruments.outside.view import OUTSIDE
 from lucida.app.ui import palettes, theme
-from lucida.renderer.camera.camera import Camera
-from lucida.renderer.scene.model import Sphere
 
 
 def drive_a_pixel_is_the_same_in_all_views(d):
@@ -48,26 +46,6 @@ def drive_a_pixel_is_the_same_in_all_views(d):
     assert np.allclose(end, (x, y), atol=1.0)
     start = place(d, np.asarray(camera.eye))
     assert np.allclose(ray.points[0, 0] + (at.origin.x, at.origin.y), start, atol=1.0)
-
-
-def drive_what_stands_before_the_image_plane_is_not_looked_through(d):
-    enter(d)
-    window = d.window
-    camera = window.renderers.camera(window.state)
-    ball = next(o.shape for o in window.state.scene.objects if isinstance(o.shape, Sphere))
-    center, spot = np.asarray(ball.center), plane_corners(camera).mean(axis=0)
-    way = (center - spot) / np.linalg.norm(center - spot)
-    from_behind = center + 1.4 * ball.radius * way
-    for eye, hidden in ((from_behind, True), (spot - 0.5 * way, False)):
-        looking = Camera.look_at(eye, spot, fov_y_deg=40.0)
-        d.change(outside={"camera": looking}, marked=None)
-        d.frames(3)  # its rows and columns are where it was drawn
-        d.settle()
-        d.move_to(place(d, spot))
-        assert (window.hovered is None) == hidden
-        d.ctx.mouse_click(0)
-        d.frames(2)
-        assert (window.state.marked is None) == hidden
 
 
 def drive_the_legend_switches(d):
