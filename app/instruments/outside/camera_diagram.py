@@ -34,13 +34,12 @@ from .frustum import (
     border,
     grid,
     image_point,
-    meets_plane,
     on_ray,
     plane_corners,
     plane_parameter,
     point_at,
 )
-from .lens_diagram import ideal_border, lens_pixel
+from .lens_diagram import lens_pixel
 from .pixel_drawing import pixel_numbers, pixel_square
 from .pixel_plane import pixel_items
 from .ray_drawing import half_line, meetings, rays_to
@@ -125,9 +124,7 @@ def plane_items(content: Content) -> list[Item]:
 
 def _image(camera: Camera) -> list[Item]:
     edges = polyline(plane_corners(camera), True)
-    plane = Segments("image plane", "plane", edges, 2.4, on_plane=True)
-    has_ideal = camera.lens is not None and meets_plane(camera)
-    return [plane, ideal_border(camera)] if has_ideal else [plane]
+    return [Segments("image plane", "plane", edges, 2.4, on_plane=True)]
 
 
 def _volume(camera: Camera, end: float) -> list[Item]:
