@@ -8,7 +8,9 @@ pixel and the image's size. docs/checking.md has the table for users.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
@@ -105,7 +107,8 @@ RIGID_WORDS |= {word for word in CAMERA_WORDS if word.startswith("fov_")}
 CAMERA = "camera"  # the word for an object with the declared fields
 
 
-def camera_words(camera: Camera, size: Size, axes: tuple[int, int, int]) -> dict[str, Any]:
+@lru_cache(256)  # all pixels of an image have the same
+def camera_words(camera: Camera, size: Size, axes: tuple[int, int, int]) -> Mapping[str, Any]:
     """Return the values of words that are numbers, vectors (3,) or 4 x 4 matrices."""
     width, height = size
     left, right, bottom, top = camera.viewport
@@ -153,7 +156,7 @@ def pixel_words(i: Whole, j: Whole, size: Size, base: int, from_top: bool) -> di
 def camera_values(shot: Shot, conventions: Conventions) -> dict[str, Any]:
     """Return the value of each camera word, and of CAMERA, as JSON values."""
     camera = shot.camera
-    words = camera_words(camera, shot.size, conventions.axes)
+    words = dict(camera_words(camera, shot.size, conventions.axes))
     words["rotation"] = words["camera_to_world"][:3, :3]
     words["top_left"] = words["bottom_left"] + words["vertical"]
     words |= {"target": shot.target, "up": shot.up, "viewport": camera.viewport}

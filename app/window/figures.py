@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -14,6 +14,7 @@ import numpy as np
 from imgui_bundle import ImVec4, imgui_microtex
 from PIL import Image
 
+from lucida.app.cameras.films.frames import with_z
 from lucida.app.instruments.outside.figure import (
     LETTER_WIDTH,
     WHITE,
@@ -23,17 +24,19 @@ from lucida.app.instruments.outside.figure import (
     Part,
     Picture,
 )
-from lucida.app.instruments.outside.figure_view import outside_figure
+from lucida.app.instruments.outside.figure_view import PLACE, outside_figure
 from lucida.app.instruments.outside.paint import figure_color, ground_of
 from lucida.app.instruments.outside.svg import svg
 from lucida.app.instruments.probe.copying import all_lines, as_latex
 from lucida.app.instruments.probe.reading import Reading
 from lucida.app.instruments.probe.view import ProbeView
+from lucida.app.state.app_state import AppState
 from lucida.app.ui import formula, theme
 from lucida.app.ui.explaining.plain import plain_math
 from lucida.app.ui.host import Host
 from lucida.app.web import pdf
 from lucida.renderer.camera.checks import Floats
+from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import picture
 from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.system.errors import LucidaError
@@ -52,23 +55,29 @@ def figure_of(host: Host, choice: FigureChoice) -> Figure:
     """Return a figure of what the window shows. Raises LucidaError, moderngl.Error."""
     page, ground = _page(host, choice)
     if choice.what == "outside":
-        return replace(outside_figure(host, choice.size, choice.scale, page), ground=ground)
+        figure = outside_figure(host, choice.size, choice.scale, page)
+        return Figure(figure.size, figure.parts, figure.unit, ground, figure.image)
     if choice.what == "probe":
         parts: Iterable[Part] = _formulas(host, choice, page)
     else:
-        parts = _images(host, choice)
+        parts = _images(host.state, choice, [_shown(host, name) for name in _names(choice)])
     return Figure(choice.size, tuple(parts), choice.scale, ground)
 
 
 def encoder(host: Host, choice: FigureChoice) -> Callable[[str], bytes]:
-    """Return a function that makes a figure's file for an ending, on any thread.
+    """Return a function that makes a figure's file for an ending, on any thread. An image has the
+    page's pixels, unless the window's resolution is set.
 
     Raises LucidaError, moderngl.Error.
     """
     name, is_probe = host.state.scene.name, choice.what == "probe"
+    if _names(choice) and host.state.images.resolution is None:
+        make = _images_anew(host, choice)
+    else:
+        figure = figure_of(host, choice)
+        make = lambda: figure  # noqa: E731
     latex = as_latex(_reading(host), host.options.indexing) if is_probe else ""
-    title = f"{name}: {choice.what}" if name else choice.what
-    return partial(_encoded, figure_of(host, choice), title, latex)
+    return partial(_encoded, make, f"{name}: {choice.what}" if name else choice.what, latex)
 
 
 def _page(host: Host, choice: FigureChoice) -> tuple[Color, Color | None]:
@@ -80,11 +89,12 @@ def _page(host: Host, choice: FigureChoice) -> tuple[Color, Color | None]:
     return page, None if choice.ground == "transparent" else page
 
 
-def _encoded(figure: Figure, title: str, latex: str, ending: str) -> bytes:
+def _encoded(make: Callable[[], Figure], title: str, latex: str, ending: str) -> bytes:
     if ending == ".tex":
         if not latex:
             raise LucidaError(ending, "is for the probe's formulas", f"give {', '.join(ENDINGS)}")
         return latex.encode()
+    figure = make()
     if ending == ".png":
         file = io.BytesIO()
         painted(figure).save(file, "PNG")
@@ -131,18 +141,52 @@ def _shown(host: Host, name: What) -> Frame:
     return Frame(both.size, **channels)
 
 
-def _images(host: Host, choice: FigureChoice) -> Iterator[Part]:
-    """Yield one image, or both side by side, pixel by pixel, as large as there is room."""
-    images, names = host.state.images, _names(choice)
-    frames = [_shown(host, name) for name in names]
-    count, shape = len(frames), np.array(frames[0].size)
-    room = np.array([(1 - GAP * (count - 1)) * choice.size[0] / count, choice.size[1]])
-    width, height = np.maximum(np.round((room / shape).min() * shape), 1).astype(int).tolist()
-    free = choice.size[0] - count * width
-    gap = round(GAP * choice.size[0]) * (count - 1)
+def _images_anew(host: Host, choice: FigureChoice) -> Callable[[], Figure]:
+    """Return a function that makes a figure of images with the page's pixels, on any thread."""
+    state, both = host.state, host.renderers
+    request, names, channel = both.request(state), _names(choice), state.images.channel
+    assert request is not None
+    assert both.textures is not None
+    request = replace(request, size=_extent(choice, both.size))
+    channels, frames = (stored(channel), "depth"), dict[What, Frame]()
+    if "raster" in names:
+        rasterizer = both.textures.rasterizer
+        rasterizer.draw(request, PLACE)
+        arrays = rasterizer.of(request.scene).read(channels, place=PLACE)
+        frames["raster"] = Frame(request.size, **arrays)
+    ground = _page(host, choice)[1]
+
+    def make() -> Figure:
+        if "ray" in names:
+            with both.live.make_tracer(request) as tracer:
+                frames["ray"] = tracer.render(
+                    request.camera, request.size, channels, request.samples
+                )
+        shown = [frames[name] for name in names]
+        if channel == "z":
+            shown = [with_z(frame, request.camera) for frame in shown]
+        parts = _images(state, choice, shown)
+        return Figure(choice.size, tuple(parts), choice.scale, ground)
+
+    return make
+
+
+def _extent(choice: FigureChoice, shape: Size) -> Size:
+    """Return the size of each image on the page: as large as there is room, of a size's shape."""
+    count = len(_names(choice))
+    room = (1 - GAP * (count - 1)) * choice.size[0] / count, choice.size[1]
+    scale = min(room[0] / shape[0], room[1] / shape[1])
+    return max(1, round(scale * shape[0])), max(1, round(scale * shape[1]))
+
+
+def _images(state: AppState, choice: FigureChoice, frames: Sequence[Frame]) -> Iterator[Part]:
+    """Yield one image, or both side by side, pixel by pixel."""
+    width, height = _extent(choice, frames[0].size)
+    free = choice.size[0] - len(frames) * width
+    gap = round(GAP * choice.size[0]) * (len(frames) - 1)
     y = (choice.size[1] - height) // 2
-    for number, (name, frame) in enumerate(zip(names, frames, strict=True)):
-        pixels = picture(frame, stored(images.channel), images.exposure_ev)
+    for number, (name, frame) in enumerate(zip(_names(choice), frames, strict=True)):
+        pixels = picture(frame, stored(state.images.channel), state.images.exposure_ev)
         if choice.ground != "shown":
             seen = np.isfinite(frame.channel("depth"))[..., None] * np.uint8(255)
             pixels = np.concatenate([pixels, seen], axis=2, dtype=np.uint8)

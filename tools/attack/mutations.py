@@ -39,6 +39,7 @@ TESTS = {
     "app/images": ("renderer/images",),
     "renderer/camera": ("app/cameras",),
     "renderer/compare": ("parity",),
+    "renderer/files": ("renderer/editing",),
     "renderer/images": ("renderer/files", "app/images"),
     "renderer/scene": ("renderer/files", "renderer/editing"),
 }

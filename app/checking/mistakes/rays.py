@@ -219,7 +219,7 @@ def ray_values(
     task = task or RayTask(camera.projection)
     row, column = (np.asarray(value)[..., None] for value in np.broadcast_arrays(i, j))
     pixel = pixel_words(row, column, size, task.indexing.value, task.from_top)
-    return pixel | camera_words(camera, size, task.axes)
+    return {**pixel, **camera_words(camera, size, task.axes)}
 
 
 def run_rays(

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from lucida.renderer.camera.checks import LARGEST, Floats
 
-from .diagram import Dot, Item, Label, Role, line, named_arrow
+from .diagram import Item, Role, line, named_arrow, named_dot
 from .second_camera import ROLE, GivenRay, second_ray
 
 LONGEST = 2.0  # of a direction that was given, in lengths of the correct one
@@ -49,8 +49,7 @@ def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item
         if is_drawable(end):
             items += [
                 line(text, role, start, end, 2.0, dashed=role == ROLE, layer=4),
-                Dot(text, role, end, 6.0, layer=5),
-                Label(text, role, text, end, start if (end != start).any() else None, strong=True),
+                *named_dot(text, role, text, end, start if (end != start).any() else None, layer=5),
             ]
     return items
 
@@ -73,8 +72,7 @@ def ray(given: GivenRay, correct: GivenRay, reach: float) -> list[Item]:
     tip = given.origin + min(longest, 1.0) * given.direction
     items += _arrow("your d", ROLE, "your vec(d)", given.origin, tip)
     if np.linalg.norm(given.origin - correct.origin) > 1e-3 * reach:
-        items.append(Dot("your origin", ROLE, given.origin, 6.0, layer=5))
-        items.append(Label("your origin", ROLE, "your vec(p)", given.origin, tip, strong=True))
+        items += named_dot("your origin", ROLE, "your vec(p)", given.origin, tip, layer=5)
     return items
 
 

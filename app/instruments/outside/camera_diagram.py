@@ -24,6 +24,7 @@ from .diagram import (
     Segments,
     line,
     named_arrow,
+    named_dot,
     polyline,
     shares,
 )
@@ -33,13 +34,12 @@ from .frustum import (
     border,
     grid,
     image_point,
-    meets_plane,
     on_ray,
     plane_corners,
     plane_parameter,
     point_at,
 )
-from .lens_diagram import ideal_border, lens_pixel
+from .lens_diagram import lens_pixel
 from .pixel_drawing import pixel_numbers, pixel_square
 from .pixel_plane import pixel_items
 from .ray_drawing import half_line, meetings, rays_to
@@ -124,9 +124,7 @@ def plane_items(content: Content) -> list[Item]:
 
 def _image(camera: Camera) -> list[Item]:
     edges = polyline(plane_corners(camera), True)
-    plane = Segments("image plane", "plane", edges, 2.4, on_plane=True)
-    has_ideal = camera.lens is not None and meets_plane(camera)
-    return [plane, ideal_border(camera)] if has_ideal else [plane]
+    return [Segments("image plane", "plane", edges, 2.4, on_plane=True)]
 
 
 def _volume(camera: Camera, end: float) -> list[Item]:
@@ -208,8 +206,7 @@ def _target(eye: Floats, target: Floats, up: Floats) -> list[Item]:
     """Return the target, and up if it has a length."""
     return [
         line("to target", "extra", eye, target, 1.6, dashed=True, layer=2),
-        Dot("target", "extra", target, 6.0),
-        Label("target", "extra", "target", target, away=target - WORLD_UP, strong=True),
+        *named_dot("target", "extra", "target", target, target - WORLD_UP),
         *(named_arrow("up", "extra", "up", eye, eye + up) if up.any() else ()),
     ]
 

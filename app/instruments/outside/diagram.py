@@ -152,6 +152,15 @@ def shares(grown: float, parts: int) -> list[float]:
     return [min(max(grown - part, 0.0), 1.0) for part in range(parts)]
 
 
+def named_dot(
+    name: str, role: Role, text: str, point: Floats, away: Floats | None, radius: float = 6.0,
+    **more: Any,
+) -> list[Item]:  # fmt: skip
+    """Return a mark with its name, which keeps away from `away`. more: fields of the mark."""
+    label = Label(name, role, text, point, away=away, strong=True)
+    return [Dot(name, role, point, radius, **more), label]
+
+
 def named_arrow(
     name: str, role: Role, text: str, start: Floats, end: Floats, **more: Any
 ) -> list[Item]:

@@ -9,7 +9,6 @@ Behind a lens, rays do not pass their pixels on the image plane; some may not me
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Sequence
 from functools import lru_cache
 
@@ -23,7 +22,6 @@ from lucida.renderer.camera.image_plane import Size, has_pixel
 
 MOST_GRID_LINES = 32
 STEPS = (1, 2, 5)  # times a power of ten: pixels from one line of the grid to the next
-STEEPEST_DEG = 80.0  # from the axis: rays that are steeper meet the image plane too far away
 CURVE = 32  # parts of a side of what is curved
 
 
@@ -63,34 +61,15 @@ def image_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
     return point_at(camera.pinhole, x, y, plane_parameter(camera))
 
 
-def ideal_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
-    """Return where a lens's rays through (x, y) meet the image plane, world points (..., 3). Only
-    if meets_plane().
-    """
-    ahead = -camera.direction(x, y) @ camera.camera_from_world[2, :3]
-    return point_at(camera, x, y, camera.distance / ahead)
-
-
-def meets_plane(camera: Camera) -> bool:
-    """Return True if all rays of a camera with a lens meet the image plane not too far away."""
-    optics = _optics(camera)
-    along = optics.direction(*border(optics).T)
-    cosines = -along[:, 2] / np.linalg.norm(along, axis=1)
-    return bool((cosines > math.cos(math.radians(STEEPEST_DEG))).all())
-
-
-def _optics(camera: Camera) -> Camera:
-    """Return a camera at the origin with the same viewport, distance and lens."""
-    return Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens)
-
-
 def border(camera: Camera, parts: int = CURVE) -> Floats:
     """Return points (x, y) around what the camera sees, (4 parts, 2): the viewport's sides, or
     where the lens ends before. They begin at the upper left and go to the right.
 
     parts: of a side, 1 for the corners.
     """
-    return _border(_optics(camera), parts)
+    return _border(
+        Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens), parts
+    )
 
 
 @lru_cache(maxsize=64)

@@ -31,6 +31,7 @@ from .diagram import (
     Role,
     Segments,
     line,
+    named_dot,
     term,
 )
 from .frustum import image_point, on_ray
@@ -235,8 +236,7 @@ def _turning(content: Content, pixel: Pixel, share: float) -> list[Item]:
     items += [
         *pixel_square(moved, size, pixel, 0.5),
         _ray(origin, origin + content.end * way),
-        Dot("p", "ray", origin, 6.0, layer=5),
-        Label("p", "ray", "vec(p)", origin, away=origin - v, strong=True),
+        *named_dot("p", "ray", "vec(p)", origin, origin - v, layer=5),
     ]
     found = terms(camera, x, y, {"w": left, "u": 1.0, "v": 1.0, "ray": 0.0})
     end = origin + (left + share / camera.distance) * way

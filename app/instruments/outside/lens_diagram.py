@@ -1,8 +1,8 @@
-"""A lens in a camera's diagram: curves where a pinhole has straight lines, and what it does to a
-pixel. Pure.
-"""
+"""What a lens does to a pixel, in a camera's diagram. Pure."""
 
 from __future__ import annotations
+
+import math
 
 import numpy as np
 
@@ -10,19 +10,13 @@ from lucida.app.state.options.shared import Pixel
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 
-from .diagram import Dot, Item, Label, Segments, line, polyline
-from .frustum import border, ideal_point, image_point, meets_plane
+from .diagram import Dot, Item, Label, line
+from .frustum import image_point, point_at
 from .pixel_drawing import pixel_square
 
 APART_PX = 22.0  # a pixel and its ideal point are named if they are farther apart on the screen
+STEEPEST_DEG = 80.0  # from the axis: rays that are steeper meet the image plane too far away
 OUTSIDE = "outside of the lens"
-
-
-def ideal_border(camera: Camera) -> Segments:
-    """Return where the rays along the border meet the image plane."""
-    places = ideal_point(camera, *border(camera).T)
-    edges = polyline(places[np.isfinite(places).all(axis=1)], True)
-    return Segments("ideal border", "volume", edges, 1.8, on_plane=True)
 
 
 def lens_pixel(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
@@ -30,16 +24,18 @@ def lens_pixel(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
     it does. A pixel outside of the lens is only named so.
     """
     x, y = camera.image_point(*pixel, size)
-    distorted = image_point(camera, x, y)
-    if not np.isfinite(camera.direction(x, y)).all():
+    distorted, along, w = image_point(camera, x, y), camera.direction(x, y), np.asarray(camera.w)
+    if not np.isfinite(along).all():
         middle = image_point(camera, *camera.image_point(size[1] / 2, size[0] / 2, size))
         return [
             *pixel_square(camera, size, pixel),
             Label("outside", "mark", OUTSIDE, distorted, away=middle),
         ]
-    if not meets_plane(camera):
+    cosine = -(along @ w) / (np.linalg.norm(along) * np.linalg.norm(w))
+    if cosine < math.cos(math.radians(STEEPEST_DEG)):
         return []
-    ideal = ideal_point(camera, x, y)
+    ahead = -along @ camera.camera_from_world[2, :3]  # in lengths of w
+    ideal = point_at(camera, x, y, camera.distance / ahead)
     return [
         line("lens", "mark", distorted, ideal, 2.2, on_plane=True, layer=4),
         Dot("ideal", "ray", ideal, 4.0, on_plane=True, layer=5),

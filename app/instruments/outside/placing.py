@@ -20,12 +20,11 @@ from .projected import Primitive, Shape, Strokes, Text
 Spot = tuple[float, float]
 Sums = NDArray[np.float32]
 Label = tuple[str, str, int]  # name, role, how many before it have both
-Edges = tuple[float, float, float, float]  # left, top, right, bottom
 
 # Places: turned away from the label's own direction, and farther out in heights of the text.
 TURNS = np.radians([0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180])
 FARTHER = (0.0, 0.8, 1.8)
-# What a place costs: for half a turn, for a height farther out, outside the view or under a tool,
+# What a place costs: for half a turn, for a height farther out, outside the view,
 # on another label, on a mark, for a height of a line in the text.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED = 1.2, 0.8, 60.0, 40.0, 18.0, 3.0
 CELL = 0.15  # of the grid, in heights of a text
@@ -61,11 +60,10 @@ class LabelPlacer:
         primitives: Sequence[Primitive],
         boxes: Sequence[Box],
         size: tuple[float, float],
-        tools: tuple[Edges, ...] = (),
     ) -> list[Spot]:
         """Return the centres of the texts among the primitives, in their order.
 
-        boxes: of those texts. size: of the view. tools: boxes that no text may be under.
+        boxes: of those texts. size: of the view.
         """
         if size != self._size:
             self._chosen, self._size = {}, size
@@ -81,8 +79,8 @@ class LabelPlacer:
         wide += SPACE * np.array([[box.height] for box in boxes])
         around = np.concatenate([places - wide[:, None], places + wide[:, None]], axis=2)
         areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all of one size
-        met = _overlap(around, np.array([(0.0, 0.0, *size), *tools])) / areas[..., None]
-        costs = preferences + OUTSIDE * (1 - met[..., 0] + met[..., 1:].sum(axis=2))
+        inside = _overlap(around, np.array([(0.0, 0.0, *size)]))[..., 0] / areas
+        costs = preferences + OUTSIDE * (1 - inside)
         height = max(box.height for box in boxes)
         costs += _covered(around / (CELL * height), _sums(primitives, height, size))
         centers: list[Spot] = [(0.0, 0.0)] * len(texts)

@@ -12,7 +12,6 @@ from lucida.app.state.options.outside import Point
 from lucida.app.state.options.shared import Pixel
 from lucida.app.ui.explaining.notation import number
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 
 from .diagram import (
@@ -22,6 +21,7 @@ from .diagram import (
     Role,
     Segments,
     line,
+    named_dot,
     shares,
     term,
 )
@@ -46,22 +46,18 @@ def half_line(camera: Camera, size: Size, pixel: Pixel, grown: float) -> list[It
         return []
     up = camera.basis[:, 1]
 
-    def named_point(name: str, text: str, radius: float, at: Floats) -> list[Item]:
-        dot = Dot(name, "ray", at, radius, layer=5)
-        return [dot, Label(name, "ray", text, at, away=at + up, strong=True)]
-
-    items = named_point("p", "vec(p)", 6.0 * begun, origin)
+    items = named_dot("p", "ray", "vec(p)", origin, origin + up, 6.0 * begun, layer=5)
     if ahead:
         items += term("d", "ray", "vec(d)", origin, origin + ahead * (ticks[0] - origin), -up)
     if whole:
         fades = 1 - (1 - PALE) * faded
         for name, end, pale in (("line", far, 1.0), ("t < 0", before, fades)):
-            line = np.array([[origin, origin + whole * (end - origin)]])
-            items.append(Segments(name, "ray", line, WIDTH * pale, pale, 0.6 * pale,
-                                  dashed=pale < 1, layer=3))  # fmt: skip
+            look = {"opacity": pale, "hidden": 0.6 * pale, "dashed": pale < 1, "layer": 3}
+            reached = origin + whole * (end - origin)
+            items.append(line(name, "ray", origin, reached, WIDTH * pale, **look))
     if whole == 1:
-        for t_here, at in zip(TICKS, ticks, strict=True):
-            items += named_point(f"t = {t_here:g}", f"t = {t_here:g}", 5.0, at)
+        for one, at in zip(TICKS, ticks, strict=True):
+            items += named_dot(f"t = {one:g}", "ray", f"t = {one:g}", at, at + up, 5.0, layer=5)
         formula = "vec(r)(t) = vec(p) + t vec(d)"
         items.append(Label("line", "ray", formula, named, away=named - up, strong=True))
     if faded == 1:
@@ -85,8 +81,8 @@ def meetings(
     fades = 1 - (1 - PALE) * lit
     items: list[Item] = [
         line("ray", "ray", origin, reached, WIDTH, hidden=0.6, layer=3),
-        Segments("beyond", "ray", np.array([[reached, far]]), WIDTH * fades, fades, fades * 0.6,
-                 dashed=lit > 0, layer=2),
+        line("beyond", "ray", reached, far, WIDTH * fades, opacity=fades, hidden=fades * 0.6,
+             dashed=lit > 0, layer=2),
     ]  # fmt: skip
     if first < 0:
         pale = {"opacity": PALE, "hidden": PALE}
@@ -99,10 +95,7 @@ def meetings(
         role: Role = "mark" if wins or not lit else "text"
         radius, name = (6.0 + 3.0 * lit * wins) * shown, f"t = {number(round(t, 2))}"
         away = point - camera.basis[:, 1]
-        items += [
-            Dot(name, role, point, radius, layer=5 + wins, hidden=1.0),
-            Label(name, role, name, point, away=away, strong=True),
-        ]
+        items += named_dot(name, role, name, point, away, radius, layer=5 + wins, hidden=1.0)
     return items
 
 

@@ -20,7 +20,7 @@ from .looking import TRIAD_PX
 from .mouse import Scope
 from .paint import label_color
 from .painting import measured, rimmed_text
-from .placing import Box, Edges, LabelPlacer
+from .placing import Box, LabelPlacer
 from .projected import Primitive, Text
 
 MENU = "Instruments/In the outside view"
@@ -28,27 +28,17 @@ PAD = 6  # around the menu's button
 GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # of the axes
 
 
-def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> tuple[Edges, ...]:
-    """Draw the menu and the axes into the view's window. Return the boxes that they cover, in the
-    view's pixels.
-
-    actions: of the menu.
-    """
+def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> None:
+    """Draw the menu and the axes into the view's window. actions: of the menu."""
     pad, origin = theme.px(PAD), scope.origin
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     if imgui.button("Show##outside"):
         imgui.open_popup("outside menu")
-    covered = imgui.get_item_rect_max() - origin
     if imgui.begin_popup("outside menu"):
         for number, action in enumerate(one for one in actions if one.menu == MENU):
             draw_entry(action, host, first=number == 0)
         imgui.end_popup()
     draw_axes(scope.shown, origin, scope.extent)
-    scale, right, around = framebuffer_scale(), scope.extent.x, 2 * theme.px(TRIAD_PX)
-    return (
-        (0.0, 0.0, scale * (covered.x + pad), scale * (covered.y + pad)),
-        (scale * (right - around), 0.0, scale * right, scale * around),
-    )
 
 
 def draw_axes(camera: Camera, origin: ImVec2, extent: ImVec2) -> None:
@@ -93,11 +83,10 @@ def written(
     placer: LabelPlacer,
     view: Size,
     fonts: theme.Fonts,
-    tools: tuple[Edges, ...],
 ) -> list[Written]:
     """Return the texts of a diagram in their places.
 
-    placer: the view's own. view: its size in pixels. tools: boxes in it that are covered.
+    placer: the view's own. view: its size in pixels.
     """
     scale = framebuffer_scale()
     texts = [part for part in primitives if isinstance(part, Text)]
@@ -107,7 +96,7 @@ def written(
         pieces.append(measured(part.text, part.strong, size, fonts))
         room = scale * theme.px(7 if part.strong else 13)
         boxes.append(Box(scale * sum(piece[2] for piece in pieces[-1]), scale * size, room))
-    centers = placer.place(primitives, boxes, view, tools)
+    centers = placer.place(primitives, boxes, view)
     return [
         Written(
             part.role, ((x - box.width / 2) / scale, (y - box.height / 2) / scale), size, found,

@@ -59,7 +59,7 @@ from .looking import (
 )
 from .mouse import Area, Mouse, Scope
 from .paint import ground_of, layers
-from .placing import Edges, LabelPlacer
+from .placing import LabelPlacer
 from .projected import Primitive, project
 from .screen import OutsideScreen, image_plane
 from .tools import draw_labels, use_tools, written
@@ -205,11 +205,10 @@ class OutsideView(Instrument):
         draw.push_clip_rect(area.origin, area.far, True)
         ground = ground_of(host.state.scene.background, host.state.images.exposure_ev)
         self._gizmo.follow(host, scope, ground)
-        tools: tuple[Edges, ...] = ()
-        if host.has_tools:
-            tools = use_tools(host, scope, self.actions)
-        labels = self._written(self._made.primitives, self._placer, size, host.fonts, tools)
+        labels = self._written(self._made.primitives, self._placer, size, host.fonts)
         draw_labels(labels, area.origin)
+        if host.has_tools:
+            use_tools(host, scope, self.actions)
         self.hosted.draw(host, scope, self._over)
         draw.pop_clip_rect()
 

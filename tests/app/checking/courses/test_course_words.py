@@ -81,9 +81,10 @@ def test_every_mistake_is_known_by_name(share: int, task: CheckTask) -> None:
     program = program_of(task)
     right = np.array([case.right for case in cases])
 
+    made = [case_values(case, *case.pixel, ray_task(task)) for case in cases]
+    known = {name: np.array([np.atleast_1d(one[name]) for one in made]) for name in made[0]}
+
     def rays_with(*mistakes: Mistake) -> NDArray[np.float64]:
-        made = [case_values(case, *case.pixel, ray_task(task)) for case in cases]
-        known = {name: np.array([np.atleast_1d(one[name]) for one in made]) for name in made[0]}
         rays = np.stack(run_rays(program, known, mistakes), axis=1)
         with np.errstate(all="ignore"):
             return unit_rays(rays) if task.conventions.unit else rays
