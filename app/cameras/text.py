@@ -1,5 +1,4 @@
-"""A camera as text to copy: a view file, Python, OpenGL matrices; and every other
-format of a single text file.
+"""A camera as text to copy: a view file, Python, OpenGL matrices.
 
 reader.py reads them back, but for Python.
 """
@@ -12,38 +11,29 @@ from typing import Any, Literal, get_args
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
-from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files import view_to_toml
-from lucida.renderer.files.cameras import PosedCamera, opengl, written
+from lucida.renderer.files.cameras import opengl
 from lucida.renderer.scene.model import View
 from lucida.renderer.system.errors import LucidaError
 
 from .presets import clip_around
 
-Form = Literal[
-    "view file", "Python", "OpenGL matrices", "OpenCV", "glTF"
-]  # fmt: skip
+Form = Literal["view file", "Python", "OpenGL matrices"]
 FORMS: tuple[Form, ...] = get_args(Form)
-# Those of other programs, by the format's name.
-FORMATS_OF: dict[Form, str] = {
-    "OpenCV": "opencv",
-    "glTF": "gltf",
-}
 
 
 @dataclass(frozen=True)
 class Subject:
     """The subject of a text form.
 
-    shown: the camera as drawn, with its viewport
-    fitted to the image; size: of that, (width, height). bounds: (n, 3) around the scene.
+    shown: the camera as drawn, with its viewport fitted to the image.
+    bounds: (n, 3) around the scene.
     """
 
     view: View
     shown: Camera
     bounds: Floats
-    size: Size
 
 
 def as_text(form: Form, subject: Subject) -> str:
@@ -52,9 +42,6 @@ def as_text(form: Form, subject: Subject) -> str:
         return view_to_toml(subject.view)
     if form == "Python":
         return python(subject.view)
-    if form in FORMATS_OF:
-        posed = PosedCamera(subject.shown, subject.size)
-        return written([posed], FORMATS_OF[form]).decode()
     if subject.shown.lens is not None:
         remedy = "take the lens off, or copy another form"
         raise LucidaError("lens", "is nothing that a matrix holds", remedy)

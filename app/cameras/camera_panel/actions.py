@@ -16,7 +16,7 @@ from lucida.app.cameras.lens_choices import LENS_PRESETS, LensPreset
 from lucida.app.cameras.meanings import Meaning, matrix_in, meanings
 from lucida.app.cameras.presets import PRESETS, Preset, framed, look_at, preset_view
 from lucida.app.cameras.reader import read_copied
-from lucida.app.cameras.text import FORMATS_OF, FORMS, Form, Subject, as_text
+from lucida.app.cameras.text import FORMS, Form, Subject, as_text
 from lucida.app.state.app_state import AppState, is_orthonormal
 from lucida.app.ui.action import Action, changing, choosing
 from lucida.app.ui.host import Host
@@ -126,7 +126,7 @@ def copy(window: Host, form: Form) -> None:
     """
     state = window.state
     shown = window.renderers.camera(state)
-    subject = Subject(state.view, shown, window.focus.bounds, image_size(window))
+    subject = Subject(state.view, shown, window.focus.bounds)
     try:
         text = as_text(form, subject)
     except LucidaError as error:
@@ -166,17 +166,6 @@ def paste(window: Host) -> None:
 def _take(window: Host, meaning: Meaning) -> None:
     window.travel(with_its_basis(window.state.with_view(meaning.view)))
     window.files.say(f"The camera is the pasted matrix's: {meaning.words.splitlines()[0]}.")
-
-
-def form_name(form: Form) -> str:
-    """Return the name for a button or a menu."""
-    return form[0].upper() + form[1:] if form not in FORMATS_OF else form
-
-
-def _copying_as(form: Form) -> Action:
-    is_first = form == next(iter(FORMATS_OF))
-    run = partial(copy, form=form)
-    return Action("Edit/Copy camera as", form_name(form), run, separated=is_first)
 
 
 def _to_preset(preset: Preset) -> Action:
@@ -255,6 +244,9 @@ EDIT = (
         "Ctrl+Shift+C",
         separated=True,
     ),
-    *(_copying_as(form) for form in FORMS),
+    *(
+        Action("Edit/Copy camera as", form[0].upper() + form[1:], partial(copy, form=form))
+        for form in FORMS
+    ),
     Action("Edit", "Paste camera", paste, "Ctrl+V"),
 )

@@ -40,4 +40,4 @@ def lens_views(draw: st.DrawFn) -> View:
 
 
 def subject(view: View) -> Subject:
-    return Subject(view, view.for_size(SIZE), BOUNDS, SIZE)
+    return Subject(view, view.for_size(SIZE), BOUNDS)

@@ -33,7 +33,7 @@ def test_matrices_come_back_as_the_camera_that_was_drawn(view: View) -> None:
 
 def test_matrices_are_named_column_by_column_and_what_opengl_takes() -> None:
     camera = Camera(eye=(1, 2, 3), near=0.5, far=20.0)
-    text = as_text("OpenGL matrices", Subject(View(camera), camera, BOUNDS, SIZE))
+    text = as_text("OpenGL matrices", Subject(View(camera), camera, BOUNDS))
     values: dict[str, list[float]] = {}
     exec(text, {}, values)
     view, clip = values["camera_from_world"], values["clip_from_camera"]
@@ -44,7 +44,7 @@ def test_matrices_are_named_column_by_column_and_what_opengl_takes() -> None:
     assert clip[14] == pytest.approx(-2 * 20 * 0.5 / (20 - 0.5))
     assert "near = 0.5, far = 20.0" in text
     behind = Camera(u=(-1, 0, 0), w=(0, 0, -1))
-    text = as_text("OpenGL matrices", Subject(View(behind), behind, BOUNDS, SIZE))
+    text = as_text("OpenGL matrices", Subject(View(behind), behind, BOUNDS))
     assert "-0.0," not in text and "-0.0]" not in text
 
 
@@ -64,7 +64,7 @@ def test_of_matrices_a_clip_plane_that_is_not_set_is_found(
 ) -> None:
     """Without a scene 0.1 and 100; but never more than a factor of 1000 nearer or farther."""
     camera = Camera(eye=(1, 2, 3), **clip)
-    text = as_text("OpenGL matrices", Subject(View(camera), camera, np.zeros((0, 3)), SIZE))
+    text = as_text("OpenGL matrices", Subject(View(camera), camera, np.zeros((0, 3))))
     assert f"# {told}" in text.split("\n")
 
 

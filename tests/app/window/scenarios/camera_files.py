@@ -53,8 +53,8 @@ def same_camera(one, other, size=SIZE):
 
 def drive_a_camera_is_copied_and_pasted(d):
     shown, size = d.renderers.camera(d.state), d.renderers.size
-    d.menu("Edit/Copy camera as/OpenCV")
-    assert said(d).endswith("OpenCV.")
+    d.menu("Edit/Copy camera as/OpenGL matrices")
+    assert said(d).endswith("OpenGL matrices.")
     d.menu("Camera/Canonical camera")
     d.press(CTRL | Key.v)
     assert same_camera(d.renderers.camera(d.state), shown, size)
