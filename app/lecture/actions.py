@@ -31,7 +31,7 @@ LECTURE = (
         Action("Lecture", f'Begin "{title}"', partial(_begin, path))
         for title, path in BUILTINS.items()
     ),
-    Action("Lecture", "Open lecture...", lambda w: w.files.open_lecture_dialog()),
+    Action("Lecture", "Open lecture...", lambda w: w.files.open_dialog()),
     Action(
         "Lecture",
         "Next step",

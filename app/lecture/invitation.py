@@ -25,6 +25,6 @@ def invitation(host: Host) -> Path | None:
         wrapped(title)
         imgui.pop_id()
     if imgui.button("Open lecture..."):
-        host.files.open_lecture_dialog()
+        host.files.open_dialog()
     wrapped("A lecture's file can be dropped on the window, too.", theme.DIM)
     return asked

@@ -82,16 +82,13 @@ def loading_box(what: str, time_s: float) -> bool:
     with overlay(LOADING, top_center(3), (0.5, 0), box_width(26, 0.8), theme.ACCENT, flags):
         wrapped(f"{what} ...")
         imgui.push_style_color(imgui.Col_.plot_histogram, theme.ACCENT)
-        cancelled = progress(time_s, 8)
+        # A moving bar, since nobody knows how long it takes.
+        size = -8 * imgui.get_font_size(), 0
+        imgui.progress_bar(-0.5 * time_s, size, f"{time_s:.0f} s")
+        imgui.same_line()
+        cancelled = bool(imgui.button("Cancel", (-1, 0)))
         imgui.pop_style_color()
     return cancelled
-
-
-def progress(time_s: float, button_em: float) -> bool:
-    """Draw a moving bar, since nobody knows how long it takes. Return True for Cancel."""
-    imgui.progress_bar(-0.5 * time_s, (-button_em * imgui.get_font_size(), 0), f"{time_s:.0f} s")
-    imgui.same_line()
-    return bool(imgui.button("Cancel", (-1, 0)))
 
 
 def failure_note(title: str, error: Exception) -> bool:

@@ -63,7 +63,6 @@ def _bookmark(number: int, stores: bool) -> Action:
 
 FILE = (
     Action("File", "Open...", lambda w: w.files.open_dialog(), "Ctrl+O"),
-    Action("File", "Open photograph...", lambda w: w.files.open_photograph_dialog()),
     Action(
         "File",
         "Save scene",

@@ -9,46 +9,30 @@ from dataclasses import replace
 
 from lucida.app.cameras.films.key_file import keys_text
 from lucida.app.cameras.films.paths import Key
-from lucida.app.cameras.lens_choices import KINDS
-from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import MOST_BOOKMARKS, Bookmark
 from lucida.app.ui.host import Host
-from lucida.renderer.scene import View
 from lucida.renderer.system.atomic import atomic_write
 from lucida.renderer.system.errors import one_line
 
 NUMBERS = range(1, MOST_BOOKMARKS + 1)
 
 
-def of(state: AppState, number: int) -> Bookmark | None:
-    """Return the bookmark of a number; None if there is none."""
-    return next((mark for mark in state.options.bookmarks if mark.number == number), None)
-
-
-def with_bookmark(state: AppState, number: int) -> AppState:
-    """Return the state in which the present view is kept under a number, 1 to 9."""
-    mark = Bookmark(number, describe(state.view), state.view)
-    others = [other for other in state.options.bookmarks if other.number != number]
-    return state.with_options(
-        replace(
-            state.options, bookmarks=tuple(sorted([*others, mark], key=lambda entry: entry.number))
-        )
-    )
-
-
 def store(window: Host, number: int) -> None:
-    """Keep the present view, and report it."""
-    window.change(with_bookmark(window.state, number))
+    """Keep the present view under a number, 1 to 9, and report it."""
+    options = window.options
+    others = [mark for mark in options.bookmarks if mark.number != number]
+    marks = sorted([*others, Bookmark(number, window.state.view)], key=lambda mark: mark.number)
+    window.edit(replace(options, bookmarks=tuple(marks)))
     window.files.say(f"This view is bookmark {number}: key {number} comes back to it.")
 
 
 def recall(window: Host, number: int) -> None:
     """Go to a bookmark's view; report how to make one if there is none."""
-    mark = of(window.state, number)
-    if mark is None:
-        window.files.say(f"Bookmark {number} is free: Ctrl+{number} keeps a view.")
-        return
-    window.travel(window.state.with_view(mark.view))
+    for mark in window.options.bookmarks:
+        if mark.number == number:
+            window.travel(window.state.with_view(mark.view))
+            return
+    window.files.say(f"Bookmark {number} is free: Ctrl+{number} keeps a view.")
 
 
 def save_for_film(window: Host) -> None:
@@ -62,11 +46,3 @@ def save_for_film(window: Host) -> None:
 
     kind = ("Key cameras", ".toml")
     window.files.save_as_dialog("Save the film's cameras", "keys.toml", kind, store)
-
-
-def describe(view: View) -> str:
-    """Describe a view in a few words: perspective from (3.4, 3.1, 8.6)."""
-    x, y, z = view.camera.eye
-    lens = view.camera.lens
-    kind = view.camera.projection if lens is None else KINDS[lens.model].name.lower()
-    return f"{kind} from ({x:.3g}, {y:.3g}, {z:.3g})"

@@ -27,13 +27,12 @@ from lucida.renderer.scene import Scene, View
 from lucida.renderer.system.cancelling import Cancellation, CancelledError, cancelled_by
 from lucida.renderer.system.errors import describe, one_line
 
-from .kinds import CODE_ENDING, TOML_ENDING
+from .kinds import CODE_ENDING
 from .opening import (
     Opened,
     OpenedLecture,
     OpenedScene,
     OpenedView,
-    open_lecture,
     open_sources,
     reread,
 )
@@ -144,31 +143,15 @@ class Files:
             self._said.append(f"Loading {self._source} was cancelled.")
 
     def open_dialog(self) -> None:
-        endings = (*SCENE_ENDINGS, *CAMERA_ENDINGS)
-        words = "Scenes, models, views and cameras"
-        self.ask_open("Open a scene, a model or cameras", words, endings, self.open_all)
+        endings = (*SCENE_ENDINGS, *CAMERA_ENDINGS, *PHOTO_ENDINGS, CODE_ENDING)
+        words = "Scenes, models, lectures, cameras, photographs and Python"
+        self.ask_open("Open", words, tuple(dict.fromkeys(endings)), self.open_all)
 
     def add_model_dialog(self) -> None:
         def add(paths: list[str]) -> None:
             self._load(paths[0], lambda agreed: open_sources(paths, True, agreed, "add"))
 
         self.ask_open("Add a model to the scene", "Models", MODEL_ENDINGS, add)
-
-    def open_lecture(self, source: str) -> None:
-        """Load a file as a lecture. Ask first if it names files outside its folder."""
-        self._load(source, lambda agreed: open_lecture(source, agreed))
-
-    def open_lecture_dialog(self) -> None:
-        def open_first(paths: list[str]) -> None:
-            self.open_lecture(paths[0])
-
-        self.ask_open("Open a lecture", "Lectures", (TOML_ENDING,), open_first)
-
-    def open_code_dialog(self) -> None:
-        self.ask_open("Open Python code", "Python files", (CODE_ENDING,), self.open_all)
-
-    def open_photograph_dialog(self) -> None:
-        self.ask_open("Open a photograph", "Photographs", PHOTO_ENDINGS, self.open_all)
 
     def save_view_dialog(self, view: View) -> None:
         def store(path: str) -> str:

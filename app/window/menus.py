@@ -1,5 +1,5 @@
-"""The menu bar: the table of actions, and what no table holds: scenes, recent files, bookmarks,
-views, the last steps.
+"""The menu bar: the table of actions, and what no table holds: scenes, recent files, views,
+the last steps.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ from lucida.app.ui.stage import Stage
 from lucida.renderer.files import SCENE_NAMES
 from lucida.renderer.system.errors import one_line
 
-from . import bookmarks
 from .action_table import ACTIONS, MENUS
 
 HISTORY_STEPS = 15
@@ -97,10 +96,7 @@ def _actions(menu: str, window: Host, history: History) -> None:
         if action.separated:
             imgui.separator()
         if imgui.begin_menu(rest):
-            if rest == "Bookmarks":
-                _bookmarks(window)
-            else:
-                _entries(action.menu, window)
+            _entries(action.menu, window)
             imgui.end_menu()
 
 
@@ -163,13 +159,6 @@ def _history(window: Host, history: History) -> None:
             for _ in range(abs(index - here)):
                 window.undo() if index < here else window.redo()
     imgui.end_menu()
-
-
-def _bookmarks(window: Host) -> None:
-    imgui.text_colored(theme.DIM, "Ctrl+1 to Ctrl+9 keep the view; 1 to 9 come back to it")
-    for mark in window.state.options.bookmarks:
-        if imgui.menu_item(f"{mark.name}###go{mark.number}", str(mark.number), False)[0]:
-            bookmarks.recall(window, mark.number)
 
 
 def _views(stage: Stage) -> None:

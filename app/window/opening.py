@@ -154,7 +154,7 @@ def _read(source: str, agreed: frozenset[Path]) -> Thing | None:
         case "view":
             return OpenedView(load_view(source))
         case "lecture":
-            return _open_lecture(source, agreed)
+            return OpenedLecture(load_lecture(source, agreed), Path(source).absolute())
         case "cameras":
             return _open_cameras(source)
         case "code":
@@ -168,10 +168,6 @@ def _open_scene(source: str, agreed: frozenset[Path] | None, use: Use = "open") 
     return OpenedScene(scene, _prepared(scene), agreed, use)
 
 
-def _open_lecture(source: str, agreed: frozenset[Path]) -> OpenedLecture:
-    return OpenedLecture(load_lecture(source, agreed), Path(source).absolute())
-
-
 def _open_cameras(source: str) -> OpenedPoses | OpenedView:
     cameras = open_cameras(source)
     if isinstance(cameras, PoseSet):
@@ -183,13 +179,6 @@ def reread(source: str, scene: Scene, agreed: frozenset[Path] | None) -> Opened:
     """Return a newer version of a scene whose files have changed. agreed: as in OpenedScene."""
     newer = _open_scene(source, agreed, "newer")
     return Opened((replace(newer, replaces=scene),))
-
-
-def open_lecture(source: str, agreed: frozenset[Path] = frozenset()) -> Opened:
-    """Load a file as a lecture, whatever it looks like. agreed: files outside its folder that it
-    may read. Raises LucidaError.
-    """
-    return Opened((_open_lecture(source, agreed),), (source,))
 
 
 def _prepared(scene: Scene) -> Prepared | None:

@@ -72,10 +72,6 @@ class Proportion:
     def __init__(self) -> None:
         self._layout = ""
         self._shares: dict[tuple[str, str], _Share] = {}  # by layout and space
-        self._cameras: dict[str, float] = {}  # by layout: the camera panel's width, in em
-        self._camera_px = 0.0  # its last one
-        self._around_camera = (0.0, 0.0)  # the width of the room that it is part of, and the type
-        self._anew = 0  # frames in which it is set again
         self._arranged = 0
 
     def keep(self, arranged: int = 0) -> None:
@@ -89,7 +85,7 @@ class Proportion:
         anew = arranged != self._arranged or shown.name != self._layout
         self._arranged, self._layout = arranged, shown.name
         if not imgui.is_mouse_down(imgui.MouseButton_.left):
-            self._keep_camera(shown.name, anew)
+            _keep_camera()
         for whole, space, direction, _ in shown.splits:
             if space == layout.CAMERA_SPACE:  # whose width follows its numbers
                 continue
@@ -109,29 +105,16 @@ class Proportion:
                 share.again = ARRANGING_FRAMES
             share.keep(node, parent, other, across)
 
-    def _keep_camera(self, name: str, anew: bool) -> None:
-        """Keep the width of the camera's panel, in each layout: in multiples of the type's size,
-        and never too narrow for its numbers.
-        """
-        node = _side(layout.node_of(layout.CAMERA_SPACE), imgui.internal.Axis.x)
-        parent = node.parent_node if node is not None else None
-        if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
-            return
-        now, before = (parent.size.x, imgui.get_font_size()), self._around_camera
-        em_px, width = now[1], node.size.x
-        again = anew or now[0] != before[0]
-        self._around_camera, self._anew = now, ARRANGING_FRAMES if again else max(0, self._anew - 1)
-        if name not in self._cameras:
-            self._cameras[name] = width / em_px
-        elif now == before and not self._anew and abs(width - self._camera_px) > ROUNDED_PX:
-            self._cameras[name] = width / em_px  # moved by the user
-        least = math.floor(layout.camera_width_px(parent.size.x, em_px))
-        wanted = max(min(self._cameras[name] * em_px, 0.5 * parent.size.x), least)
-        is_off = self._anew or now[1] != before[1] or width < least
-        if least >= 1 and is_off and abs(width - wanted) >= 1:
-            imgui.internal.dock_builder_set_node_size(node.id_, (wanted, node.size.y))
-            width = wanted
-        self._camera_px = width
+
+def _keep_camera() -> None:
+    """Keep the camera's panel as wide as its numbers, at any size of type."""
+    node = _side(layout.node_of(layout.CAMERA_SPACE), imgui.internal.Axis.x)
+    parent = node.parent_node if node is not None else None
+    if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
+        return
+    width = math.floor(layout.camera_width_px(parent.size.x, imgui.get_font_size()))
+    if width >= 1 and abs(node.size.x - width) >= 1:
+        imgui.internal.dock_builder_set_node_size(node.id_, (width, node.size.y))
 
 
 def _child(

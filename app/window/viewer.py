@@ -113,7 +113,7 @@ class WindowRun:
         self._start_s = time.monotonic()
         try:
             with ended_by_signals(self._end):
-                _run(self.params)
+                immapp.run(self.params)
         except Exception as error:  # often ImGui's complaint about the window that was left
             self._error = self._error or error
         finally:
@@ -305,14 +305,6 @@ class WindowRun:
             # The images have their size. Frames that nobody sees would take time from them.
             self.window.news.wait(PICTURE_WAIT_S)
             self.window.news.clear()
-
-
-def _run(params: hello_imgui.RunnerParams) -> None:
-    """Run immapp without the package's wrapper, which reads the source of all callers for an option
-    that is not used here.
-    """
-    native = getattr(immapp, "immapp_cpp", None)
-    (immapp if native is None else native).run(params)
 
 
 def _configure() -> None:

@@ -206,7 +206,7 @@ class YourCode(Instrument):
 
     def _grant(self, host: Host, wish: CodeWish, path: str) -> None:
         if wish == "open":
-            host.files.open_code_dialog()
+            host.files.open_dialog()
         elif wish == "starter":
             host.files.save_as_dialog(
                 "Write a file to begin with",

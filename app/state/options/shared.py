@@ -88,7 +88,6 @@ class Bookmark:
     """A view to come back to. number: its key."""
 
     number: Annotated[int, Range(1, MOST_BOOKMARKS)]
-    name: str
     view: View
 
 

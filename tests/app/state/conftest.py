@@ -20,7 +20,7 @@ def scene():
 @pytest.fixture
 def state(scene):
     view = View(Camera((1 / 3, 2, 3), distance=0.1, near=0.25), fit=False)
-    marks = (Bookmark(1, "a 'name' with \" and é", view), Bookmark(9, "far", scene.view))
+    marks = (Bookmark(1, view), Bookmark(9, scene.view))
     return with_options(
         AppState.for_scene(scene, view),
         images={"exposure_ev": 1.5, "samples": 4, "resolution": (16, 9)},

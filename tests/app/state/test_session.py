@@ -64,15 +64,13 @@ def test_a_lens_comes_back_and_a_damaged_one_is_refused(state):
 @given(
     eye=st.tuples(*[st.floats(-1e12, 1e12)] * 3),
     distance=st.floats(1e-12, 1e12),
-    name=st.text(max_size=30),
 )
-def test_numbers_and_names_are_kept_exactly(eye, distance, name):
+def test_numbers_are_kept_exactly(eye, distance):
     view = View(Camera(eye, distance=distance))
     state = AppState.for_scene(load_scene("spheres"), view)
-    state = with_options(state, bookmarks=(Bookmark(5, name, view),))
-    # JSON is UTF-8: a lone surrogate, which no widget gives, cannot be in it.
-    if name.isprintable():
-        assert from_bytes(to_bytes(session_of(state, Arrangement()))).view == view
+    state = with_options(state, bookmarks=(Bookmark(5, view),))
+    session = from_bytes(to_bytes(session_of(state, Arrangement())))
+    assert (session.view, session.options.bookmarks[0].view) == (view, view)
 
 
 def test_of_a_scene_from_no_file_the_first_built_in_one_is_kept(scene, tmp_path):
@@ -133,8 +131,8 @@ def test_what_is_no_session_is_one_clear_error(content):
         {"options__preferences__font_scale": 0},
         {"options__preferences__theme": "pink"},
         {"options__marked": [-1, 0]},
-        {"options__bookmarks": [{"number": 0, "name": "", "view": {"camera": {}}}]},
-        {"options__bookmarks": [{"number": 1, "name": 5, "view": {"camera": {}}}]},
+        {"options__bookmarks": [{"number": 0, "view": {"camera": {}}}]},
+        {"options__bookmarks": [{"number": 1, "view": 5}]},
         {"options": []},
         {"scene": 3},
         {"arrangement__visible": "Camera"},

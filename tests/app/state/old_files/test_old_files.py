@@ -95,7 +95,7 @@ def test_a_session(tmp_path):
     assert options.one_based is False
     assert options.images.resolution == (320, 180)
     assert (options.preferences.theme, options.preferences.font_scale) == ("light", 1.25)
-    assert [(mark.number, mark.name) for mark in options.bookmarks] == [(1, "corner"), (4, "front")]
+    assert [mark.number for mark in options.bookmarks] == [1, 4]
     assert options.bookmarks[0].view == VIEW
     assert session.lecture is not None and (session.lecture.number, session.lecture.title) == (
         3,

@@ -103,7 +103,7 @@ def drive_bookmarks_bring_views_back(d):
     d.press(Key._5)
     assert "free" in d.window.shell.toasts.texts[-1]
     assert d.state.view == away
-    d.menu("Camera/Bookmarks/###go3")
+    d.menu("Camera/Bookmarks/Go to bookmark 3")
     d.until(lambda: d.state.view == home)
     d.press(CTRL | Key.z)
     d.until(lambda: d.state.view == away)

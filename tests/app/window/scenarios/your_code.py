@@ -183,7 +183,7 @@ def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
         'title = "Code"\n[[steps]]\ntitle = "yours"\nviews = ["your-code"]\n'
         'options.your_code.file = "theirs.py"\noptions.your_code.canvas = [16, 12]\n'
     )
-    d.files.open_lecture(str(lecture))
+    d.files.open(str(lecture))
     d.until(lambda: d.options.your_code.file == stored(str(d.folder / "theirs.py")))
     d.until(lambda: YOUR_CODE in d.stage.rects)
     d.settle()
