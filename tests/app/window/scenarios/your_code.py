@@ -82,9 +82,8 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     assert (pictures.given == pictures.right).all()
     before = pictures.given
     d.change(your_code={"canvas": (16, 12)})
-    d.until(
-        lambda: view(d).pictures.pictures is not None and view(d).pictures.pictures.size == (16, 12)
-    )
+    shown = view(d).pictures
+    d.until(lambda: shown.pictures is not None and shown.pictures.size == (16, 12))
     state = d.state
     d.window.change(state.with_view(d.start.scene.view))
     parallel = replace(state.camera, projection="parallel")
