@@ -25,7 +25,6 @@ INTERRUPTED = 128 + signal.SIGINT
 # Commands and options that left, and what to use instead.
 LEFT = {
     "install-desktop": "start lucida in a terminal",
-    "completion": "`lucida COMMAND --help` lists the options",
     "scenes": "`lucida scene` lists the built-in scenes",
     "--enlargement": "Rasterizer.render(enlargement=4) in Python has it",
     "--ignore-distortion": "--lens none takes a lens off, in `lucida camera` --no-lens",

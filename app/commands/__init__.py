@@ -9,6 +9,7 @@ from . import (
     camera,
     check,
     compare,
+    completion,
     doctor,
     export,
     figure,
@@ -34,4 +35,5 @@ COMMANDS = (
     lecture,
     scene,
     doctor,
+    completion,
 )

@@ -35,6 +35,7 @@ commands:
   lucida lecture [FILE]          a guided lecture, step by step
   lucida scene [SCENE]           its objects, bounds, triangles and lights, and what is odd in it
   lucida doctor                  what works here, and what to install
+  lucida completion SHELL        completion of commands and options in bash, zsh, fish or tcsh
 `lucida COMMAND --help` says more. Open a scene file named like a command as ./render."""
 
 EPILOG = """\

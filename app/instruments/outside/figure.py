@@ -251,6 +251,19 @@ def _labels(
         yield Label(part.name, part.text, center, em, color(part.role, 0.0), part.strong)
 
 
+def dashes(points: Floats, unit: float) -> list[Floats]:
+    """Return the drawn parts of a dashed line (n, 2). unit: the width of a line."""
+    drawn, period = DASHES[0] * unit, sum(DASHES) * unit
+    steps = np.linalg.norm(np.diff(points, axis=0), axis=1)
+    run = np.concatenate([[0.0], np.cumsum(steps)])
+    out = []
+    for start in (np.arange(np.ceil(run[-1] / period)) * period).tolist():
+        places = [start, min(start + drawn, float(run[-1]))]
+        places[1:1] = run[(run > places[0]) & (run < places[1])].tolist()
+        out.append(np.stack([np.interp(places, run, points[:, k]) for k in range(2)], axis=1))
+    return out
+
+
 def on_plane(screen: OutsideScreen, plane: Plane, fine: int = 1) -> tuple[Depths, Floats]:
     """Return the plane's ray parameters at the pixels of the page, (height, width), infinity
     outside its picture, and the places (height, width, 2) in the picture, 0 to 1.

@@ -22,6 +22,7 @@ from .figure import (
     Line,
     Picture,
     Polygon,
+    dashes,
 )
 
 Point = tuple[float, float]
@@ -30,7 +31,7 @@ THINNEST_PX = 1.0  # of lines on the screen
 
 
 class Painter:
-    """Paints figures with ImGui, every line solid. uploads: the textures of their pictures."""
+    """Paints figures with ImGui. uploads: the textures of their pictures."""
 
     def __init__(self, draw: imgui.ImDrawList, fonts: Fonts, uploads: Uploads) -> None:
         self._draw, self._fonts, self._uploads = draw, fonts, uploads
@@ -65,7 +66,8 @@ class Painter:
                 color = packed(part.color, part.opacity)
                 width = max(THINNEST_PX, part.width * scale)
                 for piece in part.pieces:
-                    self._draw.add_polyline(on_screen(piece), color, width, 0)
+                    for points in dashes(piece, figure.unit) if part.dashed else [piece]:
+                        self._draw.add_polyline(on_screen(points), color, width, 0)
             else:
                 box = place(part.low), place(part.high)
                 seen = _within(box, (low, high))

@@ -151,7 +151,6 @@ def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
     length = math.dist(start, end)
     if length <= 0:
         return []
-    look = {"dashed": item.dashed, "layer": item.layer}
     tip, cone = screen.seen(end), list[Primitive]()
     if tip.visible:
         axis = (end - start) / length
@@ -167,7 +166,8 @@ def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
             cone += _filled(f"{item.name} head", item.role, hull, depth, layer)
             if not towards:
                 cone += _filled(f"{item.name} base", item.role, base.points, depth, layer, -0.35)
-    shaft = Segments(item.name, item.role, np.array([[start, end]]), item.width, **look)
+    ends, dashed = np.array([[start, end]]), item.dashed
+    shaft = Segments(item.name, item.role, ends, item.width, dashed=dashed, layer=item.layer)
     return [*_lines(shaft, screen), *cone]
 
 

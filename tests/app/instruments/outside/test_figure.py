@@ -18,6 +18,7 @@ from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Item, Label, RayEnd, Segments
 from lucida.app.instruments.outside.figure import (
     Figure,
+    dashes,
     figure_parts,
     on_plane,
     with_picture,
@@ -192,6 +193,14 @@ def test_degenerate_cameras_give_a_file_without_nan(looking: Camera) -> None:
 def test_odd_names_cannot_break_the_file() -> None:
     label = Label("l", "extra", 'a\x00b <&> "c"\ud800', np.zeros(3))
     assert 'ab <&> "c"' in [text.text for text in parsed(drawn([label])).iter(f"{SPACE}text")]
+
+
+def test_dashes_have_the_lines_length_in_turn() -> None:
+    line = np.array([[0, 0], [12, 0], [12, 15]], float)
+    found = dashes(line, 1.0)
+    lengths = [np.linalg.norm(np.diff(dash, axis=0), axis=1).sum() for dash in found]
+    assert lengths == [5, 5, 5]
+    assert found[1].tolist() == [[9, 0], [12, 0], [12, 2]]  # around the corner
 
 
 @pytest.mark.parametrize("ground", [None, (1.0, 1.0, 1.0)])
