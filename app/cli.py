@@ -30,6 +30,8 @@ LEFT = {
     "--ignore-distortion": "--lens none takes a lens off, in `lucida camera` --no-lens",
     "--time-limit": "a task file has it: seconds = 60",
     "--memory-limit": "a task file has it: memory_mb = 2048",
+    "--frames": "a film has --seconds times --fps of them",
+    "--threads": "Tracer(scene, threads=4) in Python has it",
     "--from": "commands count rows and columns from 0",
     "--show": "`lucida compare` marks the causes; the window's view Compare shows the difference",
     "--photographs": "`lucida render --view SET#1 -o OUT` draws one camera of a set; a loop, all",

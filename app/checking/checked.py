@@ -25,23 +25,12 @@ LONGEST_VALUE = 400  # characters of an argument, enough to try the case by hand
 
 
 @dataclass(frozen=True)
-class WrongCase:
-    """A case with a wrong answer.
-
-    answer: the given answer in the kind's own form, like case.right.
-    lines: the pixel, the call with its arguments, the correct answer and the given one.
-    """
-
-    case: CheckCase
-    answer: Any
-    lines: tuple[str, ...]
-
-
-@dataclass(frozen=True)
 class TaskResult:
     """The result of a task.
 
     cases, wrong: the number of cases, and of wrong ones.
+    first: of the first wrong case, the pixel, the call with its arguments, the correct answer and
+    the given one, in lines.
     failure: the reason why the task could not be tried, with the call that led to it.
     output: the text that the student's code printed.
     """
@@ -50,7 +39,7 @@ class TaskResult:
     status: Status
     cases: int = 0
     wrong: int = 0
-    first: WrongCase | None = None
+    first: tuple[str, ...] = ()
     failure: Failure | None = None
     diagnosis: Diagnosis | None = None
     output: str = ""
@@ -75,12 +64,12 @@ class TaskResult:
         """
         if self.failure is not None:
             return one_line(self.failure.text), *failure_lines(self.failure)
-        if self.first is None or self.task.feedback in ("nothing", "verdict"):
+        if not self.first or self.task.feedback in ("nothing", "verdict"):
             return ()
         sentences = self.diagnosis.sentences if self.diagnosis is not None else ()
         are = "is" if self.wrong == 1 else "are"
         count = f"{self.wrong} of {self.cases} cases {are} wrong; the first one:"
-        return *sentences, count, *self.first.lines
+        return *sentences, count, *self.first
 
     @property
     def printed(self) -> str:
@@ -182,10 +171,10 @@ def _first_wrong(
     cases: Sequence[CheckCase],
     given: Any,
     wrong: NDArray[np.bool_],
-) -> WrongCase:
+) -> tuple[str, ...]:
     number = int(np.argmax(wrong))
     case, answer = cases[number], given[number]
     where, right, shown = kind.first_wrong(task, case, answer)
     (call,) = kind.calls(task, [case])
     lines = where, told_call(call, LONGEST_VALUE), f"correct: {right}", f"given: {shown}"
-    return WrongCase(case, answer, lines if where else lines[1:])
+    return lines if where else lines[1:]

@@ -35,7 +35,6 @@ from .kinds.kind import CheckKind
 from .task_schema import ConventionsTable, TaskFile, TaskTable
 from .tasks import CAMERA_KINDS, MOST_CALLS, WITH_CAMERAS, CheckTask, Limits
 
-TASKS = 100
 # Fields of older files, with the values that still hold. Other values made another task: such a
 # field is unknown.
 REMOVED: dict[str, tuple[Any, ...]] = {
@@ -96,8 +95,6 @@ def load_tasks(path: str | Path) -> TaskSet:
 
 
 def _tasks(file: TaskFile) -> TaskSet:
-    if not 1 <= len(file.tasks) <= TASKS:
-        raise LucidaError("tasks", f"holds {len(file.tasks)} tasks", f"give 1 to {TASKS}")
     _check_words("conventions.camera", file.conventions.camera or {}, CAMERA_WORDS)
     tasks: list[CheckTask] = []
     notes = []

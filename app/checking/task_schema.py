@@ -90,4 +90,4 @@ class TaskFile(StrictTable, kw_only=True):
     network: bool | None = None
     notation: Notation = "book"
     conventions: ConventionsTable = field(default_factory=ConventionsTable)
-    tasks: list[dict[str, Any]]
+    tasks: Annotated[list[dict[str, Any]], Meta(min_length=1, max_length=100)]

@@ -69,12 +69,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="frames a second (default: 30)",
     )
     parser.add_argument(
-        "--frames",
-        type=common.whole(1, LONGEST, f"is not a number of frames; give 1 to {LONGEST}"),
-        metavar="N",
-        help="number of frames (default: seconds times fps); with --seconds, fps follows",
-    )
-    parser.add_argument(
         "--renderer", choices=("raster", "ray"), default="raster", help="(default: raster)"
     )
     common.add_size_option(parser)
@@ -115,9 +109,7 @@ def _cameras(arguments: argparse.Namespace, view: View, focus: Focus) -> list[Ca
 
         keys = load_keys(arguments.path)
     seconds = arguments.seconds or (sum(key.seconds for key in keys[:-1]) if keys else 4.0)
-    count = arguments.frames or max(1, round(seconds * arguments.fps))
-    if arguments.frames and arguments.seconds:
-        arguments.fps = count / seconds
+    count = max(1, round(seconds * arguments.fps))
     if count > LONGEST:
         raise LucidaError("--fps", f"{count} frames are too many", f"stay within {LONGEST}")
     if keys is not None:

@@ -131,12 +131,6 @@ def add_drawing_options(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--backend", choices=BACKENDS, default="auto", help=BACKEND_HELP)
     parser.add_argument(
-        "--threads",
-        type=whole(1, 1024, "is not a number of threads; give 1 to 1024"),
-        metavar="N",
-        help="the ray tracer's threads (default: one per core)",
-    )
-    parser.add_argument(
         "--shadows", action="store_true", help="with --renderer ray: objects shade one another"
     )
     parser.add_argument(

@@ -40,7 +40,6 @@ def look_of(arguments: argparse.Namespace) -> Look:
         arguments.mirrors,
         arguments.exposure,
         arguments.backend,
-        arguments.threads,
     )
 
 

@@ -60,7 +60,6 @@ class Filing(Protocol):
 class Around(Protocol):
     """The parts of the window around the views, for actions."""
 
-    def toggle_help(self) -> None: ...
     def open_document(self, name: str) -> None: ...
 
 

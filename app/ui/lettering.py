@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+from bisect import bisect
 from collections.abc import Iterator
 
 from imgui_bundle import ImVec4, imgui
@@ -30,6 +31,19 @@ def underline(color: ImVec4) -> None:
     low, high = imgui.get_item_rect_min(), imgui.get_item_rect_max()
     draw = imgui.get_window_draw_list()
     draw.add_line((low.x, high.y), (high.x, high.y), theme.u32(color), theme.px(1.5))
+
+
+def fitting_letters(text: str, width_px: float) -> str:
+    """Return the text, or as many of its first letters as fit, in the current font: for names,
+    which users choose.
+    """
+    if imgui.calc_text_size(text).x <= width_px:
+        return text
+
+    def width(count: int) -> float:
+        return float(imgui.calc_text_size(text[:count] + "...").x)
+
+    return text[: max(0, bisect(range(len(text)), width_px, key=width) - 1)] + "..."
 
 
 def fitting_words(text: str, width_px: float) -> str:

@@ -50,6 +50,7 @@ SIZES = {
     "item_spacing": (6, 5),
     "item_inner_spacing": (6, 4),
     "cell_padding": (4, 2),
+    "frame_border_size": 0,
     "frame_rounding": 3,
     "window_rounding": 4,
     "popup_rounding": 4,

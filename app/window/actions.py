@@ -14,7 +14,7 @@ from lucida.app.ui import layout
 from lucida.app.ui.action import Action, changing, choosing
 
 from . import bookmarks
-from .documents import ABOUT, FIRST, GETTING_STARTED
+from .documents import ABOUT, FIRST, GETTING_STARTED, KEYS
 from .exporting import ask_export
 from .figure_box import ask_figure
 from .platform import toggle_full_screen
@@ -144,8 +144,8 @@ HELP = (
     Action("Help", "Documentation", lambda w: w.shell.open_document(FIRST)),
     Action(
         "Help",
-        "Mouse and keys",
-        lambda w: w.shell.toggle_help(),
+        KEYS,
+        lambda w: w.shell.open_document(KEYS),
         "F1",
         "Shift+/",
     ),

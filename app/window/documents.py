@@ -20,7 +20,8 @@ from lucida.app.ui.messages import wrapped
 
 NAME = "Documentation"
 WIDTH_EM, HEIGHT_EM, LIST_EM = 76.0, 44.0, 13.5
-GETTING_STARTED, ABOUT, FIRST = "Getting started", "About Lucida", "window.md"
+GETTING_STARTED, KEYS, ABOUT = "Getting started", "Mouse and keys", "About Lucida"
+FIRST = "window.md"
 COLUMNS = 3  # of Getting started
 TILES = {
     "window.png": "Drag an image to turn the camera; the wheel moves closer. P switches between "
@@ -49,13 +50,13 @@ def folder() -> Path:
 
 
 class Documents:
-    """shown: the name of the open document, GETTING_STARTED or ABOUT; "" for none. open_link: opens
-    an address elsewhere.
+    """shown: the name of the open document, GETTING_STARTED, KEYS or ABOUT; "" for none. keys:
+    returns the text of KEYS.
     """
 
-    def __init__(self, open_link: Callable[[str], object] = webbrowser.open) -> None:
+    def __init__(self, keys: Callable[[], str]) -> None:
         self.shown = ""
-        self._open_link = open_link
+        self._keys = keys
         self._texts: dict[str, str] = {}
         self._titles: dict[str, str] = {}
         self._pictures: dict[str, moderngl.Texture] = {}
@@ -127,9 +128,9 @@ class Documents:
         texts = {path.name: path.read_text(encoding="utf-8") for path in folder().glob("*.md")}
         titles = {name: text.partition("\n")[0].lstrip("# ") for name, text in texts.items()}
         order = sorted(texts, key=lambda name: (name != FIRST, titles[name]))
-        texts[ABOUT] = self._about()
-        self._texts, titles[ABOUT], titles[GETTING_STARTED] = texts, ABOUT, GETTING_STARTED
-        self._titles = {name: titles[name] for name in (GETTING_STARTED, *order, ABOUT)}
+        self._texts = texts | {KEYS: self._keys(), ABOUT: self._about()}
+        names = GETTING_STARTED, KEYS, *order, ABOUT
+        self._titles = {name: titles.get(name, name) for name in names}
         options = imgui_md.MarkdownOptions()
         options.callbacks.on_open_link = self.follow
         options.callbacks.on_image = self._picture
@@ -150,7 +151,7 @@ class Documents:
         if name in self._texts:
             self.open(name)
         elif address.startswith(("https:", "http:")):
-            self._open_link(address)
+            webbrowser.open(address)
 
     def _picture(self, name: str) -> imgui_md.MarkdownImage | None:
         """Return a document's picture, as wide as it is, or as there is room."""

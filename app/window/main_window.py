@@ -66,7 +66,7 @@ class MainWindow(Edits):
         self.renderers = Renderers(self._wake, smooth)
         self.views = {view.name: view for view in make_views()}
         views = list(self.views.values())
-        self.shell = Shell(views, self.files, self.fonts, keeper, folder)
+        self.shell = Shell(views, self.files, keeper, folder)
         self._hovered: tuple[str, Pixel] | None = None
         self._next_hovered: tuple[str, Pixel] | None = None
         self._titled = state.scene, is_marked(state.scene, state.step is not None)

@@ -1,4 +1,4 @@
-"""The parts around the views: sheet, dialogs, toasts, the session.
+"""The parts around the views: documents, dialogs, toasts, the session.
 
 It decides what Escape means.
 """
@@ -10,7 +10,6 @@ from pathlib import Path
 
 from imgui_bundle import imgui
 
-from lucida import __version__
 from lucida.app.images.renderers import Renderers
 from lucida.app.instruments.objects.choosing import choose, chosen
 from lucida.app.lecture.view import LectureView
@@ -20,7 +19,6 @@ from lucida.app.ui.host import Host
 from lucida.app.ui.instrument import Instrument
 from lucida.app.ui.messages import loading_box, message_box
 from lucida.app.ui.stage import Rect, Stage
-from lucida.app.ui.theme import Fonts
 from lucida.app.ui.toasts import Toasts
 from lucida.renderer.system.errors import describe
 
@@ -29,7 +27,7 @@ from .files import Files
 from .hints import Hints
 from .proportion import Proportion
 from .session_store import Keeper
-from .shortcut_sheet import help_sheet
+from .shortcut_sheet import keys_document
 
 REDRAWN = 8  # frames after a change of the bars or of the views' places
 
@@ -44,18 +42,15 @@ class Shell:
         self,
         views: list[Instrument],
         files: Files,
-        fonts: Fonts,
         keeper: Keeper | None = None,
         folder: Path | None = None,
     ) -> None:
         self.stage: Stage = Stage(views)
         self.proportion = Proportion()
         self.toasts = Toasts()
-        self.documents = Documents()
+        self.documents = Documents(keys_document)
         self.hints = Hints(folder)
         self.files = files
-        self.help = False
-        self._fonts = fonts
         self._keeper = keeper
         self._kept: AppState | None = None
         self._asked = False  # whether something was typed into, in the last frame
@@ -65,9 +60,6 @@ class Shell:
         self._dividing = 0  # frames that are still requested for it
 
     # What actions ask for.
-
-    def toggle_help(self) -> None:
-        self.help = not self.help
 
     def open_document(self, name: str) -> None:
         self.documents.open(name)
@@ -86,8 +78,6 @@ class Shell:
             self._answered = describe(failure)
         elif self.documents.shown:
             self.documents.shown = ""
-        elif self.help:
-            self.help = False
         elif window.box is not None:
             window.box = None
         elif self.files.loading:
@@ -132,8 +122,6 @@ class Shell:
             self.escape(window)
         if not self.toasts.texts:  # they are read first, at the same place
             self.hints.draw(window, self.stage.rects)
-        if self.help:
-            self.help = help_sheet(self._fonts, __version__)
         self.documents.draw()
         self.files.dialog.draw()
         if self.files.loading and loading_box(

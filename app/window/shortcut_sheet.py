@@ -1,27 +1,16 @@
-"""The sheet of mouse and keys: every key that does something, by menu, in columns.
+"""The sheet of mouse and keys: every key that does something, by menu.
 
 Made from the table of app/window/action_table.py, and from what the instruments say of their mouse
-and keys. Owns its look.
+and keys.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-
-from imgui_bundle import imgui
-
-from lucida.app.ui import theme
-from lucida.app.ui.lettering import lettering
-from lucida.app.ui.messages import wrapped
 
 from .action_table import ACTIONS, MOUSE
+from .documents import KEYS
 from .instruments import INSTRUMENTS
-
-COLUMN_EM = 24.0
-MOST_COLUMNS = 4
-KEYS = 0.36  # the keys' part of a column
-NAME = "Mouse and keys"
 
 Row = tuple[str, str]  # keys, what they do
 Part = tuple[str, list[Row]]  # a heading, and its rows
@@ -58,62 +47,15 @@ def _folded(rows: list[Row]) -> list[Row]:
     ]
 
 
-def help_sheet(fonts: theme.Fonts, version: str) -> bool:
-    """Draw the sheet. Return True while it stays open."""
-    viewport, em = imgui.get_main_viewport(), imgui.get_font_size()
-    room = viewport.work_size * 0.97
-    count = max(1, min(MOST_COLUMNS, int(room.x / (COLUMN_EM * em))))
-    width = min(room.x, count * 1.1 * COLUMN_EM * em)
-    imgui.set_next_window_pos(viewport.get_center(), imgui.Cond_.always, (0.5, 0.5))
-    imgui.set_next_window_size_constraints((width, 0), (width, room.y))
-    flags = imgui.WindowFlags_
-    imgui.push_style_color(imgui.Col_.window_bg, theme.POPUP)
-    opened, still_open = imgui.begin(
-        NAME,
-        True,
-        flags.no_docking | flags.no_collapse | flags.no_saved_settings | flags.always_auto_resize,
-    )
-    imgui.pop_style_color()
-    if opened:
-        imgui.push_style_var(imgui.StyleVar_.cell_padding, (0.2 * em, 0.03 * em))
-        wrapped(f"lucida {version}: one camera, two renderers", theme.DIM)
-        if imgui.begin_table("columns", count, imgui.TableFlags_.sizing_stretch_same):
-            for column in in_columns(sections(), count):
-                imgui.table_next_column()
-                for heading, rows in column:
-                    _section(heading, rows, fonts)
-            imgui.end_table()
-        imgui.pop_style_var()
-    imgui.end()
-    return bool(still_open)
+def keys_document() -> str:
+    """Return the sheet as a document in Markdown."""
+    lines = [f"# {KEYS}"]
+    for heading, rows in sections():
+        lines += ["", f"## {heading}", "", "| | |", "|---|---|"]
+        lines += [f"| **{_plain(keys)}** | {_plain(does)} |" for keys, does in rows]
+    return "\n".join(lines)
 
 
-def in_columns(parts: Sequence[Part], columns: int) -> list[list[Part]]:
-    """Return the parts in columns of about one height: each, the longest first, goes into the
-    shortest column. There, and from column to column, they keep their order.
-    """
-    found: list[list[int]] = [[] for _ in range(columns)]
-    heights = [0] * columns
-    for number in sorted(range(len(parts)), key=lambda k: -len(parts[k][1])):
-        shortest = heights.index(min(heights))
-        found[shortest].append(number)
-        heights[shortest] += len(parts[number][1]) + 2
-    return [[parts[k] for k in sorted(column)] for column in sorted(map(sorted, found)) if column]
-
-
-def _section(heading: str, rows: list[Row], fonts: theme.Fonts) -> None:
-    with lettering(fonts.bold):
-        wrapped(heading, theme.legible(theme.RAY))
-    if imgui.begin_table(heading, 2, imgui.TableFlags_.sizing_stretch_prop):
-        # The same in every part: words stand below one another.
-        stretch = imgui.TableColumnFlags_.width_stretch
-        imgui.table_setup_column("keys", stretch, KEYS)
-        imgui.table_setup_column("what", stretch, 1 - KEYS)
-        for keys, what in rows:
-            imgui.table_next_column()
-            with lettering(fonts.bold):
-                wrapped(keys)
-            imgui.table_next_column()
-            wrapped(what)
-        imgui.end_table()
-    imgui.dummy((0, 0.3 * imgui.get_font_size()))
+def _plain(text: str) -> str:
+    """Return a text in which no sign means anything in Markdown."""
+    return re.sub(r"([\\`*_\[\]|<])", r"\\\1", text)

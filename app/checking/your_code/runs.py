@@ -17,7 +17,7 @@ from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.running.file import FileStudent, NotRunnableError
 from lucida.app.checking.tasks import CheckTask, Failure, Limits
 from lucida.app.ui.background import Background, Outcome
-from lucida.renderer.system.errors import LucidaError, describe
+from lucida.renderer.system.errors import describe
 
 from .model import RAY, CodeQuestion, CodeReport, cases_for, ray_task_for, rays_of
 
@@ -137,10 +137,8 @@ def _report(question: CodeQuestion, outcome: Outcome[CodeReport]) -> CodeReport:
             return outcome.value
         case NotRunnableError(failure=failure, output=output):
             return CodeReport(question, failure=failure, output=output)
-        case LucidaError() as error:
-            return CodeReport(question, failure=Failure("missing", describe(error)))
         case error:
-            return CodeReport(question, failure=Failure("ended", describe(error)))
+            return CodeReport(question, failure=Failure("missing", describe(error)))
 
 
 def _answered(

@@ -37,7 +37,7 @@ from lucida.renderer.system.file_dependencies import stamp
 from lucida.renderer.system.memo import Memo
 
 from . import panel
-from .code_pictures import CodePictures, PicturesShown, marked_pixel
+from .code_pictures import PicturesShown, marked_pixel
 from .model import RAY, CodeQuestion, CodeRays, CodeReport
 from .panel import CodeWish
 from .runs import CodeRuns
@@ -56,7 +56,7 @@ class YourCode(Instrument):
     def __init__(self, views: Sequence[Instrument]) -> None:
         self._outside = view_of(views, OutsideView)
         self.runs = CodeRuns()
-        self._pictures: PicturesShown | None = None
+        self.pictures: PicturesShown | None = None
         self._watch = FilesWatch({})
         self._watched = ""  # the file; the Python files beside it are watched, too
         self._version = 0  # of these files
@@ -67,16 +67,6 @@ class YourCode(Instrument):
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
         self.told: list[ToldLine] = []
         self._words = Memo(told_of)
-
-    @property
-    def report(self) -> CodeReport | None:
-        """The report on the open file; None before the first."""
-        return self.runs.report
-
-    @property
-    def pictures(self) -> CodePictures | None:
-        """The pictures on screen; None for none."""
-        return self._pictures.pictures if self._pictures is not None else None
 
     def open(self, host: Host, path: str) -> None:
         """Open a file for the user. It is run now, and whenever it is saved."""
@@ -89,32 +79,32 @@ class YourCode(Instrument):
 
     @property
     def settled(self) -> bool:
-        if not self.seen or self._pictures is None:
+        if not self.seen or self.pictures is None:
             return True
-        return not (self.runs.busy or self._pictures.busy)
+        return not (self.runs.busy or self.pictures.busy)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
-        self._pictures = PicturesShown(host, context)
+        self.pictures = PicturesShown(host, context)
 
     def end(self) -> None:
         self.runs.close()
-        if self._pictures is not None:
-            self._pictures.close()
+        if self.pictures is not None:
+            self.pictures.close()
 
     def unseen(self, host: Host) -> None:
         self.runs.poll()
         if not self.seen:
             return
-        assert self._pictures is not None
+        assert self.pictures is not None
         self.seen = False
         if self.runs.busy:
             self.runs.forget()  # nothing runs while hidden
-        self._pictures.forget()
+        self.pictures.forget()
         self._outside.show(YOUR_CODE, ())
 
     def draw(self, host: Host) -> None:
-        assert self._pictures is not None
-        self._pictures.begin_frame()
+        assert self.pictures is not None
+        self.pictures.begin_frame()
         self.seen = True
         host.renderers.need_size(host.state.images)
         path = restored(host.state.options.your_code.file)
@@ -129,8 +119,8 @@ class YourCode(Instrument):
 
     def _rest(self) -> None:
         """Run nothing, and show nothing of earlier runs."""
-        assert self._pictures is not None
-        self._pictures.forget()
+        assert self.pictures is not None
+        self.pictures.forget()
         self.runs.poll()
         if self.runs.report is not None:
             self.runs.forget()
@@ -156,7 +146,7 @@ class YourCode(Instrument):
         return self._version
 
     def _of_file(self, host: Host, path: str) -> CodeWish:
-        assert self._pictures is not None
+        assert self.pictures is not None
         runs, options = self.runs, host.state.options.your_code
         version = self._saved_version(host, path)
         camera = host.state.view.for_size(options.canvas)
@@ -172,10 +162,10 @@ class YourCode(Instrument):
         if report is None:
             imgui.text_colored(theme.DIM, "running ...")
             return wish
-        self._pictures.follow(host, report)
+        self.pictures.follow(host, report)
         marked = marked_pixel(host, report)
-        if self._pictures.expected:
-            self._pictures.draw(host, report, panel.pictures_room(), marked)
+        if self.pictures.expected:
+            self.pictures.draw(host, report, panel.pictures_room(), marked)
         self.told = self._words(report, marked)
         title = panel.words(self.told, host.fonts)
         if title:

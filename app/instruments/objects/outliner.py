@@ -13,6 +13,7 @@ from lucida.app.ui import theme
 from lucida.app.ui.action import draw_entry
 from lucida.app.ui.checks import checkbox
 from lucida.app.ui.host import Host
+from lucida.app.ui.lettering import fitting_letters
 from lucida.app.ui.rows import tip
 from lucida.renderer.editing.changing import Item
 from lucida.renderer.editing.outline import OutlineRow
@@ -125,9 +126,9 @@ def _name(host: Host, row: OutlineRow) -> None:
     imgui.pop_style_color()
     imgui.set_cursor_screen_pos(start)
     imgui.align_text_to_frame_padding()
-    room = imgui.get_content_region_avail().x
-    imgui.text_colored(theme.DIM if row.hidden or item is None else theme.TEXT, row.shown)
-    if imgui.calc_text_size(row.shown).x > room:
+    shown = fitting_letters(row.shown, imgui.get_content_region_avail().x)
+    imgui.text_colored(theme.DIM if row.hidden or item is None else theme.TEXT, shown)
+    if shown != row.shown:
         tip(row.shown)
     if clicked and item is not None:
         io = imgui.get_io()

@@ -30,9 +30,7 @@ INVITATION = (
 LAY = "on the images"
 LAY_TOLD = "each pose's photograph over both images, as they are walked (Image > Photograph)"
 LISTED = imgui.ChildFlags_.borders | imgui.ChildFlags_.nav_flattened
-BESIDE = 1.2  # width / height from which the photograph is next to the list
-PHOTO_PART = 0.52  # of the room's width, next to the list
-BELOW_PART = 0.45  # of its height, below it
+PHOTO_PART = 0.45  # of the height, below the list
 
 
 def invitation() -> PoseWish:
@@ -98,27 +96,15 @@ def _buttons(*entries: tuple[PoseWish, str, str]) -> PoseWish:
     return wish
 
 
-def rooms(has_photo: bool) -> tuple[ImVec2, ImVec2, bool]:
-    """Return the rooms for the list and the photograph, and whether they are side by side."""
-    room, gap = imgui.get_content_region_avail(), imgui.get_style().item_spacing
-    room = ImVec2(max(room.x, 1.0), max(room.y, 1.0))
-    if not has_photo:
-        return room, ImVec2(0, 0), False
-    if room.x > BESIDE * room.y:
-        photo = PHOTO_PART * room.x
-        return ImVec2(room.x - photo - gap.x, room.y), ImVec2(photo, room.y), True
-    photo = BELOW_PART * room.y
-    return ImVec2(room.x, max(room.y - photo - gap.y, 1.0)), ImVec2(room.x, photo), False
-
-
-def rows(poses: PoseSet, chosen: int, scroll: bool, room: ImVec2) -> int | None:
+def rows(poses: PoseSet, chosen: int, scroll: bool) -> int | None:
     """Draw the list. Return the number of the clicked row. Only visible rows are made.
 
     chosen: the number of the selected one, -1 for none. scroll: scroll to it; without a selection,
     to the first.
     """
     clicked = None
-    if imgui.begin_child("list", room, LISTED):
+    below = PHOTO_PART * imgui.get_content_region_avail().y if chosen >= 0 else 0.0
+    if imgui.begin_child("list", ImVec2(0, -below), LISTED):
         height = imgui.get_text_line_height_with_spacing()
         if scroll:
             top = height * max(chosen, 0)
@@ -140,23 +126,20 @@ def rows(poses: PoseSet, chosen: int, scroll: bool, room: ImVec2) -> int | None:
     return clicked
 
 
-def photograph(
-    texture: moderngl.Texture | None, caption: str, laid: bool | None, room: ImVec2
-) -> PoseWish:
+def photograph(texture: moderngl.Texture | None, caption: str, laid: bool | None) -> PoseWish:
     """Draw the picture as large as it fits, keeping its proportions, above its caption; without a
     picture, only the caption.
 
     laid: True if it is laid over the images; None if it cannot be.
     """
     wish: PoseWish = ""
-    if imgui.begin_child("photograph", room, imgui.ChildFlags_.nav_flattened):
+    if imgui.begin_child("photograph", ImVec2(0, 0), imgui.ChildFlags_.nav_flattened):
         if laid is not None:
             if checkbox(LAY, laid)[0]:
                 wish = "lay"
             tip(LAY_TOLD)
-            room = imgui.get_content_region_avail()
         if texture is not None:
-            size = ImVec2(*texture.size)
+            room, size = imgui.get_content_region_avail(), ImVec2(*texture.size)
             lines = imgui.calc_text_size(caption, False, room.x).y
             high = max(room.y - lines - imgui.get_style().item_spacing.y, 1.0)
             scale = min(room.x / size.x, high / size.y, 2.0 / framebuffer_scale())

@@ -132,14 +132,10 @@ class PosesView(Instrument):
         wish, changed = panel.head(poses, options, host.fonts)
         if changed != options:
             host.apply(state.with_options(changed))
-        for_list, for_photo, beside = panel.rooms(chosen >= 0)
-        scroll = chosen != self._scrolled
-        clicked = panel.rows(poses, chosen, scroll, for_list)
+        clicked = panel.rows(poses, chosen, scroll=chosen != self._scrolled)
         self._scrolled = chosen
         if chosen >= 0:
-            if beside:
-                imgui.same_line()
-            wish = panel.photograph(*self._photo(host, poses, chosen), for_photo) or wish
+            wish = panel.photograph(*self._photo(host, poses, chosen)) or wish
         else:
             self._photographs.want_none()
         if clicked is not None:

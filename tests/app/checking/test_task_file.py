@@ -142,7 +142,7 @@ def test_mistakes_name_file_line_and_field(tmp_path, line):
 
 
 OTHERS = {
-    "tasks = []": ("1: tasks", "holds 0 tasks"),
+    "tasks = []": ("1: tasks", "of length >= 1"),
     "tasks = 3": ("1: tasks", "give a list"),
     "seconds = 0\n" + RAYS: ("1: seconds", "expected a number > 0"),
     '[conventions]\ncamera = { a = "b" }\n' + RAYS: ("2: conventions.camera.a", "unknown"),

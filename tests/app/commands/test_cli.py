@@ -125,7 +125,10 @@ class TestMistakes:
             ("render spheres -o a.png --samples 3", "--samples: '3' is not possible; give one of"),
             ("render spheres -o a.png --shadows", "argument --shadows: only image order has it"),
             ("render spheres -o a.png --mirrors 1", "add --renderer ray"),
-            ("render spheres -o a.png --threads 0", "'0' is not a number of threads; give 1 to"),
+            (
+                "render spheres -o a.png --threads 2",
+                "--threads: is no longer part of Lucida; Tracer",
+            ),
             ("render spheres -o a.png --exposure 1e9", "'1e9' is not an exposure"),
             ("render spheres -o a.png --renderer both", "--renderer: invalid choice: 'both'"),
             ("render spheres -o a.png --backend glx", "--backend: invalid choice: 'glx'"),

@@ -26,7 +26,7 @@ def step():
     waited.append(1)
     if mode == "unknown":  # it is shown, and is not run
         if len(waited) > 60:
-            print(view.report, YOUR_CODE in run.window.shell.stage.rects)
+            print(view.runs.report, YOUR_CODE in run.window.shell.stage.rects)
             run.params.app_shall_exit = True
     elif view.runs.running_s > 0.5 and (found := sorted(children())):  # it hangs, in the last row
         print(" ".join(found))

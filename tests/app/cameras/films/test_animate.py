@@ -38,11 +38,13 @@ def pictures(folder):
 
 
 def test_a_film_and_a_folder_show_the_same_frames(animate):
-    assert animate("--orbit", "-o", "out", "--frames", "6", *SMALL)[0] == 0
+    assert animate("--orbit", "-o", "out", "--seconds", "0.2", *SMALL)[0] == 0
     assert list(pictures("out")) == [f"{n:06d}.png" for n in range(6)]
     wanted = [np.asarray(Image.open(f"out/{n:06d}.png"), float) for n in range(6)]
     assert all(np.abs(one - two).mean() > 1 for one, two in pairwise(wanted))
-    status, out, _ = animate("--orbit", "-o", "o.mp4", "--frames", "6", "--fps", "22.5", *SMALL)
+    status, out, _ = animate(
+        "--orbit", "-o", "o.mp4", "--seconds", "0.2667", "--fps", "22.5", *SMALL
+    )
     assert (status, out) == (0, "o.mp4: 6 frames, 32x18, 0.2667 s\n")
     assert not Path("o.mp4.frames").exists()
     with av.open("o.mp4") as container:
@@ -56,7 +58,7 @@ def test_a_film_and_a_folder_show_the_same_frames(animate):
 
 
 def test_the_frames_of_a_folder_are_drawn_once(animate):
-    options = ("--orbit", "-o", "v1.5/", "--frames", "3", *SMALL)
+    options = ("--orbit", "-o", "v1.5/", "--seconds", "0.1", *SMALL)
     assert animate(*options)[0] == 0
     first = pictures("v1.5")
     Path("v1.5/000001.png").unlink()
@@ -75,7 +77,7 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
         drawn.append(shot)
         return frames.draw_shot(scene, look, shot)
 
-    options = ("--orbit", "-o", "o.mp4", "--frames", "5", *SMALL)
+    options = ("--orbit", "-o", "o.mp4", "--seconds", "0.1667", *SMALL)
     monkeypatch.setattr(workers, "draw_shot", draw)
     assert animate(*options)[0] == 130
     assert len(pictures("o.mp4.frames")) == 3 and not Path("o.mp4").exists()
@@ -143,8 +145,8 @@ def test_what_else_is_in_a_folder_stays(animate):
     Path("a.mp4.frames").mkdir()
     Path("a.mp4.frames/notes.txt").write_text("mine")
     Image.new("RGB", (8, 8)).save("a.mp4.frames/000001.png")
-    status, _, err = animate("--orbit", "-o", "a.mp4", "--frames", "2", *SMALL)
+    status, _, err = animate("--orbit", "-o", "a.mp4", "--seconds", "0.0667", *SMALL)
     assert status == 2 and "000001.png: belongs to a film of another size; delete it" in err
     Path("a.mp4.frames/000001.png").unlink()
-    assert animate("--orbit", "-o", "a.mp4", "--frames", "2", *SMALL)[0] == 0
+    assert animate("--orbit", "-o", "a.mp4", "--seconds", "0.0667", *SMALL)[0] == 0
     assert pictures("a.mp4.frames") == {"notes.txt": b"mine"}

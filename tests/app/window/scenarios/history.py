@@ -4,6 +4,7 @@ import numpy as np
 from window_driver import IMAGES, Key
 
 from lucida.app.images.pair.view import RASTER, RAY
+from lucida.app.window.documents import KEYS
 
 CTRL = Key.mod_ctrl
 
@@ -46,9 +47,9 @@ def drive_keys_and_menus(d):
     d.click("//Camera/Scene's view")
     assert window.state.camera == d.start.camera
     d.press(Key.f1)
-    assert d.ctx.window_info("//Mouse and keys").id_ != 0
+    assert window.shell.documents.shown == KEYS
     d.press(Key.escape)
-    assert not window.shell.help
+    assert not window.shell.documents.shown
 
 
 def drive_shadows_and_mirrors_are_the_ray_images_alone(d):

@@ -8,6 +8,7 @@ from window_driver import SIZE, Key
 from lucida.app.images.pair.boxes import ask_resolution
 from lucida.app.images.pair.view import RASTER
 from lucida.app.ui import layout, theme
+from lucida.app.window.documents import KEYS
 from lucida.app.window.hints import Hints
 from lucida.app.window.platform import begin_letters, lock_letters
 
@@ -26,12 +27,12 @@ def drive_the_sheet_fits_the_window_at_every_size_of_type(d):
     for scale in (1.0, 3.0):
         d.change(preferences={"font_scale": scale})
         d.press(SHIFT | Key.slash)
-        assert d.window.shell.help
-        box = d.ctx.window_info("//Mouse and keys").rect_full
+        assert d.window.shell.documents.shown == KEYS
+        box = d.ctx.window_info("//Documentation").rect_full
         assert box.min.x >= 0 and box.max.x <= SIZE[0]
         assert box.min.y >= 0 and box.max.y <= SIZE[1]
         d.press(Key.escape)
-        assert not d.window.shell.help
+        assert not d.window.shell.documents.shown
 
 
 def drive_looks_are_options_that_undo_leaves_alone(d):
@@ -117,10 +118,10 @@ def drive_a_narrow_window_keeps_its_menus_and_its_status(d):
             for name in names:
                 assert d.ctx.item_exists(f"//##MainMenuBar/##MenuBar/{name}"), (width, name)
             d.press(Key.f1)
-            assert d.window.shell.help
+            assert d.window.shell.documents.shown == KEYS
             d.frames(3)
             d.press(Key.escape)
-            assert not d.window.shell.help
+            assert not d.window.shell.documents.shown
     finally:
         d.resize(SIZE)
     d.window.change(d.start)
@@ -214,9 +215,9 @@ def drive_escape_ends_what_lies_on_top_before_it_takes_the_mark_away(d):
     d.frames(2)
     d.ctx.mouse_click(0)
     d.frames(2)
-    assert window.shell.help
+    assert window.shell.documents.shown
     d.press(Key.escape)
-    assert not window.shell.help
+    assert not window.shell.documents.shown
     assert window.box is not None
     d.press(Key.escape)
     assert window.box is None

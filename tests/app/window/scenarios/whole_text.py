@@ -13,6 +13,7 @@ from window_driver import Key
 from lucida.app.images.pair.boxes import ask_resolution
 from lucida.app.ui import layout
 from lucida.app.window.action_table import MENUS
+from lucida.app.window.documents import KEYS
 
 SIZE, LARGEST = (1024, 768), 2.0
 CTRL, SHIFT, ESCAPE = (key for key in (Key.mod_ctrl, Key.mod_shift, Key.escape))
@@ -23,7 +24,7 @@ def boxes(d):
     files, shell = d.files, d.window.shell
     answers = {"Add it to the scene": lambda: None, "Open it instead": lambda: None}
     opened = {
-        "shortcut sheet": shell.toggle_help,
+        "keys": lambda: shell.open_document(KEYS),
         "go to pixel": lambda: d.press(CTRL | Key.g),
         "resolution": lambda: ask_resolution(d.window),
         "open": lambda: d.press(CTRL | Key.o),

@@ -77,20 +77,21 @@ def drive_a_right_file_is_told_right_and_follows_the_camera(d):
     opened(d, RIGHT)
     until_told(d, "Every ray is correct.", "viewing-ray: correct")
     d.settle()
-    pictures = view(d).pictures
+    pictures = view(d).pictures.pictures
     assert pictures.size == (32, 24)
     assert (pictures.given == pictures.right).all()
     before = pictures.given
     d.change(your_code={"canvas": (16, 12)})
-    d.until(lambda: view(d).pictures is not None and view(d).pictures.size == (16, 12))
+    shown = view(d).pictures
+    d.until(lambda: shown.pictures is not None and shown.pictures.size == (16, 12))
     state = d.state
     d.window.change(state.with_view(d.start.scene.view))
     parallel = replace(state.camera, projection="parallel")
     d.window.change(d.state.with_camera(parallel))
-    d.until(lambda: view(d).report is not None and view(d).report.rays.camera.is_parallel)
+    d.until(lambda: view(d).runs.report is not None and view(d).runs.report.rays.camera.is_parallel)
     until_told(d, "Every ray is correct.")
     d.settle()
-    assert view(d).pictures.size == (16, 12)
+    assert shown.pictures.size == (16, 12)
     assert before.shape == (24, 32, 3)
     d.window.open("spheres")
     d.until(lambda: d.state.scene.name == "spheres")
@@ -103,7 +104,7 @@ def drive_a_wrong_file_is_told_by_name_and_again_when_it_is_saved(d):
     d.settle()
     outside = view_of(d.window.views.values(), OutsideView)
     assert any(item.name == "second edges" for item in outside.extensions.lines)
-    pictures = view(d).pictures
+    pictures = view(d).pictures.pictures
     assert (pictures.given != pictures.right).any()
     info = d.box(f"{WINDOW}/right")
     d.click_at((info.min.x + 1.0, info.min.y + 1.0))
@@ -143,17 +144,17 @@ def drive_an_endless_loop_holds_no_frame_up_and_is_stopped(d):
     until_told(d, "was stopped", "not run again by itself: choose fewer pixels")
     d.until(lambda: not its.busy)
     d.until(lambda: not (children() & processes))
-    version = view(d).report.question.version
+    version = view(d).runs.report.question.version
     camera = d.state.camera
     d.window.change(d.state.with_camera(replace(camera, distance=2.0 * camera.distance)))
     d.frames(10)
     assert not its.busy  # not by itself
-    assert view(d).report.question.version == version
+    assert view(d).runs.report.question.version == version
     d.change(your_code={"canvas": (4, 3)})
     until_told(d, "Every ray is correct.")  # it has no fourth row
     write(d, RIGHT)
     until_told(d, "Every ray is correct.")
-    d.until(lambda: view(d).report.question.version > version)
+    d.until(lambda: view(d).runs.report.question.version > version)
 
 
 def drive_nothing_runs_that_nobody_sees(d):
@@ -185,7 +186,7 @@ def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     d.until(lambda: d.options.your_code.file == stored(str(d.folder / "theirs.py")))
     d.until(lambda: YOUR_CODE in d.stage.rects)
     d.settle()
-    assert not view(d).runs.busy and view(d).report is None and not ran.exists()
+    assert not view(d).runs.busy and view(d).runs.report is None and not ran.exists()
     d.click(f"{WINDOW}/Run it")
     until_told(d, "Every ray is correct.")
     assert ran.exists()
