@@ -97,7 +97,7 @@ def listed(vector: Iterable[float]) -> str:
 
 
 def arrays_text(named: Any) -> str:
-    """Return a short repr of a named tuple of arrays: numbers, vectors, and the shapes of others."""
+    """Return a short repr of a named tuple of arrays: numbers, vectors, and others' shapes."""
 
     def part(value: Any) -> str:
         array = np.asarray(value)

@@ -77,7 +77,7 @@ def camera_fields(
 
 
 def check_for_lens(K: Floats) -> None:
-    """Raise LucidaError for a K with a skew or a mirror, which would have to come after the lens."""
+    """Raise LucidaError for a skew or a mirror in K, which would have to come after the lens."""
     if not (K[0, 0] > 0 and K[1, 1] > 0 and abs(K[0, 1]) <= SKEWED * K[0, 0]):
         what = "mirrors the image" if K[0, 0] < 0 or K[1, 1] < 0 else f"has the skew {K[0, 1]:g}"
         raise LucidaError("K", f"{what} of a lens, which is not supported", IGNORE)
