@@ -23,7 +23,7 @@ from lucida.app.instruments.objects.choosing import choose, rows_of
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import layout
-from lucida.app.ui.surface import Target
+from lucida.app.window.canvas import Target
 from lucida.app.window.platform import start_platform
 from lucida.app.window.start import first_state
 from lucida.app.window.viewer import WindowRun, save_png
