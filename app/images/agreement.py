@@ -26,8 +26,8 @@ class Verdict:
     """The result of a comparison.
 
     text: for the status line. agrees: None if the images cannot be compared. comparison: counts,
-    errors and a label per pixel, even if shadows and mirrors, which only rays find, make the images
-    differ. darkness: of the ray image, and why.
+    errors and a label per pixel, even if the images differ by shadows and mirrors, which only rays
+    find. darkness: a note if the ray image is dark, with the reason.
     """
 
     request: ImageRequest
@@ -38,9 +38,9 @@ class Verdict:
 
 
 class Agreement:
-    """Compares pairs of images on its own thread.
+    """A comparison of pairs of images on its own thread.
 
-    wake: called from that thread when a verdict is there. compared: the last request that was
+    wake: called on that thread when a verdict is ready. compared: the last request that was
     compared, or that failed.
     """
 

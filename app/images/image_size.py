@@ -9,20 +9,22 @@ from lucida.renderer.system.memo import Memo
 
 from .placement import Placement, common_pane, place
 
-NEARBY_PX = 4  # by which the halves of a window may differ
+NEARBY_PX = 4  # greatest difference between the halves of a window
 UNSEEN_SIZE = (640, 480)  # of images that no view shows
 
 
 class ImageSize:
-    """size: (width, height) of both images; (0, 0) before the first layout. panes_px: the sizes of
-    the images' windows, by name.
+    """The size that both images share.
+
+    size: (width, height); (0, 0) before the first layout. panes_px: the sizes of the images'
+    windows, by name.
     """
 
     def __init__(self) -> None:
         self.size = (0, 0)
         self.panes_px: dict[str, tuple[int, int]] = {}
         self._rulers_px = (0, 0)
-        self._place = Memo(place, most=2)  # several ask in a frame
+        self._place = Memo(place, most=2)  # called several times in a frame
         self._selected: tuple[int, int] | None = None  # the resolution, in the last frame
 
     def fit_pane(
@@ -34,8 +36,8 @@ class ImageSize:
     ) -> None:
         """Report the size of an image's window, (width, height) in framebuffer pixels.
 
-        Both images get the size of the largest of them, or the selected resolution. A camera of a
-        set is seen through at its own shape. rulers_px: of the rulers next to magnified pixels, see
+        Both images get the size of the largest window, or the selected resolution. A camera of a
+        set keeps the shape of its own image. rulers_px: of the rulers next to magnified pixels, see
         Placement.
         """
         options, given = state.images, state.view.given
@@ -51,8 +53,8 @@ class ImageSize:
         self.size = (width, min(height, LARGEST_PIXELS // width))
 
     def common_room(self, pane_px: tuple[int, int]) -> tuple[int, int]:
-        """Return the room for an image in a window: a few pixels less if another window is that
-        much smaller, so that both show their images at the same size.
+        """Return the space for an image in a window. It is a few pixels smaller if another window
+        is, so that both show their images at the same size.
         """
         near = [
             pane
@@ -72,7 +74,7 @@ class ImageSize:
         return self.placed(state.images, room)
 
     def placed(self, options: ImageOptions, room_px: tuple[int, int]) -> Placement:
-        """Return the place of the images in a room, (width, height) framebuffer pixels."""
+        """Return the place of the images in a space of (width, height) framebuffer pixels."""
         return self._place(options, self.size, room_px, self._rulers_px)
 
     def forget_pane(self, name: str) -> None:
@@ -85,10 +87,10 @@ class ImageSize:
             self.size = options.resolution or UNSEEN_SIZE
 
     def follow_resolution(self, state: AppState) -> None:
-        """Apply the selected resolution, also while no image is visible.
+        """Apply the selected resolution, even while no image is visible.
 
-        Hidden images keep their size, but not from step to step of a lecture: what a step shows
-        does not depend on the one before.
+        Hidden images keep their size, except from step to step of a lecture, where a step must not
+        depend on the previous one.
         """
         resolution = state.images.resolution
         if resolution is not None:

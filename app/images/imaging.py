@@ -1,6 +1,5 @@
-"""The options of both images: channels, resolutions, magnifications.
-
-Their names, and the changes of the state for menus and keys.
+"""The options of both images: names of channels, resolutions and magnifications, and state changes
+for menus and keys.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ CHANNELS: dict[Channel, tuple[str, str]] = {
     "color": ("Colour", "the shaded colour of each pixel"),
     "depth": ("Depth", "the ray parameter t of the hit: the nearest is white"),
     "normal": ("Normal", "the surface's normal n, world space: (n + 1) / 2 as red, green, blue"),
-    "id": ("Object", "which object is seen: a colour for each"),
+    "id": ("Object", "the visible object, in a colour of its own"),
     "z": ("Distance z", "the hit's distance z along -w, in units of w: the nearest is white"),
 }
 _SIZE = re.compile(r"\s*(\d{1,6})\s*[x*,; \N{MULTIPLICATION SIGN}]\s*(\d{1,6})\s*", re.IGNORECASE)
@@ -40,12 +39,12 @@ def parsed_size(text: str) -> tuple[int, int]:
 
 
 def with_resolution(state: AppState, resolution: tuple[int, int] | None) -> AppState:
-    """Make the images this large, entirely visible; None: as large as the window."""
+    """Make both images this large and entirely visible; None fits them to the window."""
     images = replace(state.images, resolution=resolution, magnification=None, center=(0.5, 0.5))
     return state.with_options(images)
 
 
 def with_magnification(state: AppState, magnification: float | None) -> AppState:
-    """Magnify about the centre; None: show the whole image."""
+    """Magnify about the centre; None shows the whole image."""
     center = (0.5, 0.5) if magnification is None else state.images.center
     return state.with_options(replace(state.images, magnification=magnification, center=center))

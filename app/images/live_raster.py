@@ -1,4 +1,4 @@
-"""The raster image of the window: drawn whole, and only if something has changed.
+"""The raster image of the window, drawn as a whole and only if something has changed.
 
 Everything runs on the window's thread, which has the OpenGL context.
 """
@@ -23,16 +23,16 @@ from .lens_tables import LensTables
 from .request import ImageRequest
 from .window_rasterizer import FAILURES, WindowRasterizer
 
-# Returns the image to draw for a request, and how many times coarser.
+# Returns the image to draw for a request, and its coarseness.
 Choice = Callable[[ImageRequest], tuple[ImageRequest, int]]
-PLACES = {False: "", True: "coarse"}  # by whether the image is coarse, see Rasterizer.draw
+PLACES = {False: "", True: "coarse"}  # by the image's coarseness, see Rasterizer.draw
 
 
 @dataclass(frozen=True, eq=False)
 class RasterImage:
-    """An image.
+    """A raster image.
 
-    factor: how many times coarser it is. textures: the next image overwrites them.
+    factor: its coarseness. textures: the next image overwrites them.
     """
 
     request: ImageRequest
@@ -40,7 +40,7 @@ class RasterImage:
     textures: Textures
 
     def texture(self, channel: str) -> moderngl.Texture:
-        """Return a channel's texture, as Display.show() takes it."""
+        """Return a channel's texture for Display.show()."""
         drawn = self.textures
         return {"color": drawn.color, "id": drawn.object}.get(channel, drawn.surface)
 
@@ -59,13 +59,13 @@ class LiveRaster:
         self._timer = context.query(time=True)
         self._drawing: tuple[int, float] | None = None  # the factor, and this thread's time
         self.lens_tables = LensTables()
-        self._values = Memo(_read, most=2)  # of the visible pixels, and of the one under the mouse
+        self._values = Memo(_read, most=2)  # for the visible pixels, and the one under the mouse
         self.image: RasterImage | None = None
         self.took = 1, 0.0
 
     def begin_frame(self) -> None:
-        """Read the time of the last image, for which a frame later nothing waits. Call once a
-        frame, before anything else.
+        """Read the time of the last image, which is available without waiting a frame later. Call
+        this once a frame, before anything else.
         """
         if self._drawing is not None:
             factor, time_s = self._drawing
@@ -84,7 +84,7 @@ class LiveRaster:
     def follow(self, request: ImageRequest) -> RasterImage:
         """Return the image to show for a request, drawn now if necessary. Raises one of FAILURES.
 
-        Effects that only the tracer has do not draw it again.
+        The tracer's effects do not cause another drawing.
         """
         request, factor = self._choice(request)
         return self._drawn(request, factor)
@@ -132,7 +132,7 @@ class LiveRaster:
         """Return a request's image, at a factor or finer."""
         request = request.without_effects
         if factor == 1 and not self.lens_tables.ready(request):
-            factor = FACTORS[-1]  # until the table is there
+            factor = FACTORS[-1]  # until the table is ready
         image = self.image
         if image is not None and image.request == request and image.factor <= factor:
             return image

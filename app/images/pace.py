@@ -31,12 +31,12 @@ class Pace:
         return not self._smooth or time.monotonic() - self._changed_s >= STILL_S
 
     def factor_of(self, request: ImageRequest) -> int:
-        """Return how many times coarser the newest request's images are; 1 when it rests."""
+        """Return the coarseness of the newest request's images, 1 when it rests."""
         before = self._newest
         if request != before:
             self._newest, now_s = request, time.monotonic()
             if before is None or not before.has_scene_of(request):
-                self._coarseness.forget()  # nothing moves: the scene is another one
+                self._coarseness.forget()  # a new scene, not motion
             else:
                 self._changed_s = now_s
                 self._factor = self._coarseness.changed(request.size[0] * request.size[1], now_s)

@@ -13,15 +13,15 @@ from lucida.renderer.scene.model import Mesh, Scene, Sphere
 
 def object_on_ray(scene: Scene, origin: Floats, direction: Floats) -> int | None:
     """Return the index of the nearest object on r(t) = origin + t direction, t > 0; None if there
-    is none, or no direction: outside of a lens. Both sides of triangles count.
+    is none, or if the direction is NaN (outside a lens). Both sides of triangles count.
     """
     hits = [(t, k) for k, t in _by_object(scene, origin, direction) if math.isfinite(t)]
     return min(hits, default=(math.inf, None))[1]
 
 
 def line_meetings(scene: Scene, origin: Floats, direction: Floats) -> tuple[float, ...]:
-    """Return the t at which r(t) = origin + t direction meets objects, of each the nearest one
-    ahead, and the nearest one behind.
+    """Return the t at which r(t) = origin + t direction hits objects: for each object, the nearest
+    hit ahead and the nearest one behind.
     """
     found = {way * t for way in (1, -1) for _, t in _by_object(scene, origin, way * direction)}
     return tuple(sorted(filter(math.isfinite, found)))
@@ -46,7 +46,7 @@ def _sphere(sphere: Sphere, origin: Floats, direction: Floats) -> float:
 
 
 def _mesh(mesh: Mesh, origin: Floats, direction: Floats) -> float:
-    """Return the same for triangles. Source: Möller and Trumbore 1997, all triangles at once."""
+    """Return the same for a mesh. Source: Möller and Trumbore 1997, for all triangles at once."""
     from_world = np.linalg.inv(mesh.transform)
     start, way = from_world[:3, :3] @ origin + from_world[:3, 3], from_world[:3, :3] @ direction
     low, high = mesh.vertices.min(axis=0) - start, mesh.vertices.max(axis=0) - start

@@ -1,8 +1,8 @@
 """The place of an image in its window: its position, its magnification and its visible part.
 
 Maps between the pixels of an image and those of the screen, and computes zooming, panning and the
-margin for rulers that number magnified pixels. Knows no camera, no widget, no OpenGL. All lengths
-are framebuffer pixels, with the origin in the upper left corner of the window's content.
+margin for rulers that number magnified pixels. This module knows no camera, widget or OpenGL. All
+lengths are framebuffer pixels, with the origin in the upper left corner of the window's content.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ STEPS = (
     *(LEAST, 1 / 48, 1 / 32, 1 / 24, 1 / 16, 1 / 12, 1 / 8, 1 / 6, 1 / 4, 1 / 3, 1 / 2),
     *(1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, MOST),
 )
-NEARLY = 0.85  # as large: of the width, and of the height
-WHOLE_FROM = 4.0  # a fitted image gives up a fifth of its size at most for pixels of one size
+NEARLY = 0.85  # part of the width, and of the height, that counts as equal
+WHOLE_FROM = 4.0  # a fitted image loses at most a fifth of its size to equal pixels
 RULED_FROM = 8.0  # from this magnification on there are lines between pixels, and rulers
-LEAST_RULED = 4  # a window that is that many rulers wide and high has room for them
+LEAST_RULED = 4  # a window must be this many rulers wide and high to have any
 
 
 @dataclass(frozen=True)
@@ -34,8 +34,8 @@ class Placement:
 
     origin may be negative, extent larger than pane. magnification: screen pixels a side of an
     image's pixel. rulers: (width, height) of the ruler at the image's left and of the one above
-    it, where the magnification has them; (0, 0): never. whole: whether each pixel is a square of
-    whole screen pixels.
+    it, if the magnification has them; (0, 0) for no rulers. whole: each pixel is a square of whole
+    screen pixels.
     """
 
     size: Size
@@ -126,7 +126,7 @@ class Placement:
         )
 
     def middle_at(self, magnification: float) -> tuple[float, float]:
-        """Return the middle of the image's room: of the window without the rulers."""
+        """Return the middle of the space for the image, the window without the rulers."""
         margin = margin_at(magnification, self.rulers)
         return (self.pane[0] + margin[0]) / 2, (self.pane[1] + margin[1]) / 2
 
@@ -160,10 +160,10 @@ def rulers_in(pane: Size, rulers: Size) -> Size:
 
 
 def magnification_of(options: ImageOptions, size: Size, pane: Size, rulers: Size) -> float:
-    """Return the magnification that the options mean for an image in a window.
+    """Return an image's magnification in a window under the options.
 
-    An image that would have rulers in the whole window leaves room for them; it has none if it is
-    too small then.
+    An image that would have rulers in the whole window is fitted next to them. It has none if it is
+    then too small.
     """
     if options.magnification is not None:
         return options.magnification
@@ -181,8 +181,8 @@ def _unruled(options: ImageOptions, size: Size, pane: Size) -> float:
 def common_pane(panes: Sequence[Size]) -> Size:
     """Return the pane that the images' own size follows: the largest of their windows.
 
-    Windows that are nearly as large count too, so that all of these show pixels one to one. In
-    smaller windows the images are reduced.
+    Windows that are nearly as large count, too, so that they all show pixels one to one. Smaller
+    windows reduce the images.
     """
     width, height = max(panes, key=lambda pane: pane[0] * pane[1])
     near = [p for p in panes if p[0] >= NEARLY * width and p[1] >= NEARLY * height]
@@ -192,7 +192,7 @@ def common_pane(panes: Sequence[Size]) -> Size:
 def place(options: ImageOptions, size: Size, pane: Size, rulers: Size = (0, 0)) -> Placement:
     """Place an image of `size` in a window of `pane`, next to rulers of a (width, height) if shown.
 
-    An image smaller than its room is centred; a larger one fills it.
+    An image smaller than the space for it is centred; a larger one fills it.
     """
     rulers = rulers_in(pane, rulers) if options.grid else (0, 0)
     magnification = magnification_of(options, size, pane, rulers)
@@ -212,9 +212,9 @@ def place(options: ImageOptions, size: Size, pane: Size, rulers: Size = (0, 0)) 
 
 
 def stepped(magnification: float, steps: float, fit: float) -> float | None:
-    """Return the magnification some steps further (back: negative) in STEPS.
+    """Return the magnification some steps further in STEPS; negative steps go back.
 
-    None for back at the fit: smaller ones show no more.
+    Return None for a step back to the fit, because smaller ones show no more.
     """
     if steps < 0 and magnification < fit * 0.999:
         return magnification
@@ -247,8 +247,8 @@ def zoomed_at(
     y: float,
     magnification: float | None,
 ) -> ImageOptions:
-    """Return the options magnified, with the part `part` of the image at (x, y), or as close to it
-    as leaves nothing of the window empty. magnification None: fit.
+    """Return the options magnified, with `part` of the image at (x, y), or as close to it as
+    possible without leaving a part of the window empty. magnification: None for fit.
     """
     if magnification is None:
         return replace(images, magnification=None, center=(0.5, 0.5))
@@ -259,7 +259,7 @@ def zoomed_at(
 def panned(
     images: ImageOptions, placement: Placement, part: tuple[float, float], x: float, y: float
 ) -> ImageOptions:
-    """Return the options that bring the part `part` of the image to (x, y)."""
+    """Return the options that bring `part` of the image to (x, y)."""
     return zoomed_at(images, placement, part, x, y, placement.magnification)
 
 
@@ -270,7 +270,7 @@ def shown_pixel(images: ImageOptions, placement: Placement, pixel: tuple[int, in
         return images
     part = (pixel[1] + 0.5) / placement.size[0], (pixel[0] + 0.5) / placement.size[1]
     center = placement.part_at(*placement.middle_at(placement.magnification))
-    kept = tuple(  # along an axis on which it is in sight, nothing moves
+    kept = tuple(  # nothing moves along an axis on which the pixel is visible
         center[k] if low <= pixel[1 - k] < high else part[k]
         for k, (low, high) in enumerate(((left, right), (top, bottom)))
     )
@@ -281,7 +281,7 @@ def shown_pixel(images: ImageOptions, placement: Placement, pixel: tuple[int, in
 def clamped(
     center: tuple[float, float], placement: Placement, magnification: float
 ) -> tuple[float, float]:
-    """Return the nearest centre that leaves nothing of the image's room empty."""
+    """Return the nearest centre that leaves no part of the image's space empty."""
     room = beside(placement.pane, margin_at(magnification, placement.rulers))
     result = []
     for k in (0, 1):

@@ -1,4 +1,4 @@
-"""Everything that an image depends on, whichever renderer makes it."""
+"""The inputs of an image, for either renderer."""
 
 from __future__ import annotations
 
@@ -19,10 +19,9 @@ MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown
 class ImageRequest:
     """Everything that an image depends on, for both renderers.
 
-    size: (width, height) of the full image. shadows, mirrors: the ray image then shows what the
-    raster image cannot. channel: the visible one, of those that each image has. samples: per pixel,
-    of the colour in the full ray image. enlargement: of the faces that a lens's raster image looks
-    up.
+    size: (width, height) of the full image. shadows, mirrors: effects of the ray image
+    that the raster image cannot show. channel: the visible one. samples: per pixel, for the colour
+    of the full ray image. enlargement: texels per pixel of the faces behind a lens.
     """
 
     scene: Scene
@@ -40,33 +39,31 @@ class ImageRequest:
 
     @property
     def without_effects(self) -> ImageRequest:
-        """Return the request without what only the ray image shows."""
+        """Return the request without the effects that only the ray image shows."""
         if not self.has_effects and self.samples == 1:
             return self
         return replace(self, shadows=False, mirrors=False, samples=1)
 
     def shown(self, channel: str, values: NDArray, region: Region) -> NDArray:
-        """Return a region's values; distances in place of its ray parameters if the channel is
-        z.
-        """
+        """Return a region's values; for channel z, distances instead of ray parameters."""
         if channel != "z":
             return values
         top, left, bottom, right = region
         return self.camera.z_from_t(values, self.size, (slice(top, bottom), slice(left, right)))
 
     def may_stand_in_for(self, newer: ImageRequest | None) -> bool:
-        """Return True if its image may be shown until that of a newer request comes.
+        """Return True if its image may be shown until a newer request's image is complete.
 
-        It must have the same size and the same scene, however that was edited. A moving camera
-        shows older images; anything else would be stale.
+        Both must have the same size, and the same scene in any edited version. Older images of a
+        moving camera are acceptable; anything else would be stale.
         """
         if newer is None or newer.size != self.size:
             return False
         return self.has_scene_of(newer)
 
     def has_scene_of(self, other: ImageRequest) -> bool:
-        """Return True if another request has the same scene, however that was edited."""
-        same = other.scene.objects is self.scene.objects  # after saving, too
+        """Return True if another request has the same scene, in any edited version."""
+        same = other.scene.objects is self.scene.objects  # also after saving
         return same or are_versions(other.scene, self.scene)
 
     def is_served_by(self, other: ImageRequest | None) -> bool:

@@ -23,9 +23,10 @@ def available_px() -> tuple[int, int]:
 
 @dataclass(frozen=True)
 class Screen:
-    """An image's place on the screen. corner: of its window's content, on a whole pixel.
+    """An image's place on the screen.
 
-    scale: framebuffer pixels in a unit.
+    corner: the upper left of its window's content, on a whole pixel. scale: framebuffer pixels per
+    unit.
     """
 
     placement: Placement

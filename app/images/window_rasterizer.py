@@ -1,7 +1,7 @@
 """The rasterizer in the window's context, and its scene.
 
-It is created when it first draws: if a driver rejects its shaders, that is an error of drawing, and
-the window still has the ray image.
+It is created when it first draws. A driver that rejects its shaders therefore causes a drawing
+error, and the window still shows the ray image.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from lucida.renderer.system.errors import LucidaError
 
 from .request import ImageRequest
 
-# Errors of drawing, which are shown to the user, and do not end the program.
+# Drawing errors, which are shown to the user and do not end the program.
 FAILURES = (LucidaError, moderngl.Error, MemoryError)
 
 
@@ -56,9 +56,7 @@ class WindowRasterizer:
         return rasterizer.draw(request.camera, request.size, place, request.enlargement)
 
     def prepare(self, scene: Scene, prepared: Prepared) -> None:
-        """Keep a prepared scene, because preparing takes long: the last one, and the one before it,
-        for undo.
-        """
+        """Keep the last prepared scene and the one before it (for undo): preparing takes long."""
         self._prepared = [*self._prepared, (scene, prepared)][-2:]
 
     def retry(self) -> None:

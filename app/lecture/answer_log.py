@@ -1,4 +1,4 @@
-"""The answers of a sitting, kept on disk if the user asks for it: one JSON object a line.
+"""The answers of a session, kept on disk if the user asks for it, one JSON object per line.
 
 docs/lectures.md describes the format; results.py reads it.
 """
@@ -25,10 +25,10 @@ class KeptAnswer(msgspec.Struct, tag_field="lucida", tag="answer", omit_defaults
     """A line of the file.
 
     sitting: the same for all answers between a start of the window and its end.
-    name: only if it was typed.
-    answer: as it was given.
+    name: the one typed, or "".
+    answer: as typed or selected.
     mistake, reply, read: as in Judgement; read is never empty for a wrong answer.
-    after_solution: the solution was shown before.
+    after_solution: the solution had been shown.
     """
 
     time: datetime
@@ -52,7 +52,7 @@ class AnswerLog:
     """
 
     def __init__(self, path: Path) -> None:
-        """Raise LucidaError if the file cannot be written, or is not one of answers."""
+        """Raise LucidaError if the file cannot be written, or does not hold answers."""
         target = check_writable(path)
         self.path, self.name, self.problem, self.count = path, "", "", 0
         self._sitting = secrets.token_hex(4)
@@ -81,7 +81,7 @@ class AnswerLog:
         self.keep(lecture, step, verdict, given, answers.solved)
 
     def hidden(self, lecture: Lecture, step: Step, said: Judgement, solved: bool) -> None:
-        """Keep the correct answer to a hiding exercise, once: each move there has a reply."""
+        """Keep the correct answer to a hiding exercise, but not the reply to each move."""
         if said.right and step.title not in self._hidden:
             self._hidden.add(step.title)
             self.keep(lecture, step, said, "", solved)

@@ -28,7 +28,7 @@ from .session import LectureSession
 from .slide import TITLE, Slides
 from .watching_hidden import HiddenWatch
 
-CHOSEN_S = 1.0  # of the movement to the camera of the chosen answer
+CHOSEN_S = 1.0  # of the movement to the camera of the selected answer
 FADE_S = 0.5  # of a text that is added
 MOST_OVER = 0.15  # of the window's height, for a text over a picture
 
@@ -36,22 +36,22 @@ MOST_OVER = 0.15  # of the window's height, for a text over a picture
 class Column:
     """The column's texts and exercises.
 
-    log: keeps what is answered, if the user asked for it.
-    answered: something was answered, or a build was reached, since this was last set to False.
+    log: keeps the answers, if the user asked for it.
+    answered: an answer was given, or a build was reached, since this was last set to False.
     """
 
     def __init__(self, host: Host, log: AnswerLog | None) -> None:
         self.log, self.answered = log, False
         self.hidden_watch = HiddenWatch(host.animate)
         self._slides = Slides(host.fonts)
-        self._to_top = False  # a step's text is read from its beginning
+        self._to_top = False  # a new step shows the beginning of its text
         self._seek = False  # the text is scrolled to what was just added
         self._added_s: float | None = None  # when a text was added, while it fades in
         self._fitted: tuple[object, ...] = ()  # the key of the text's size
 
     @property
     def busy(self) -> bool:
-        """True while a text fades in, or the reply to an exercise is still to come."""
+        """True while a text fades in, or the reply to an exercise is not yet known."""
         return self.hidden_watch.busy or self._added_s is not None
 
     def begin_step(self) -> None:
@@ -86,14 +86,14 @@ class Column:
         return title
 
     def draw_over(self, host: Host, session: LectureSession) -> str:
-        """Draw the text over a picture. Return what draw() does."""
+        """Draw the text over a picture. The result is that of draw()."""
         title = self._body(host, session, MOST_OVER * layout.window_px()[1])
         if session.error:
             wrapped(session.error, theme.ERROR)
         return title
 
     def _body(self, host: Host, session: LectureSession, height: float) -> str:
-        """Draw the text and the exercise. height: the room for the longest text of the step."""
+        """Draw the text and the exercise. height: the space for the longest text of the step."""
         step, options = session.step, host.state.options
         blocks, width = step.blocks, imgui.get_content_region_avail().x
         camera = host.renderers.camera(host.state)
@@ -128,7 +128,7 @@ class Column:
         return _link(session)
 
     def _fit(self, session: LectureSession, room: ImVec2) -> None:
-        """Make the text as large as all builds of the step allow; an exercise needs its room."""
+        """Make the text as large as all builds of the step, and their exercise, allow."""
         builds = [one for one in session.lecture.builds if one.number == session.number]
         fitted = *builds, room, theme.used()
         if fitted == self._fitted:

@@ -24,7 +24,7 @@ LETTERS = "ABCDEFGH"
 
 
 def _option_px(size: float) -> tuple[float, float]:
-    """Return an option's margin, and the width of its letter with the margin before it."""
+    """Return an option's margin, and the width of that margin and its letter."""
     return 0.34 * size, 1.9 * size
 
 

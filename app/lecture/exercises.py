@@ -1,6 +1,6 @@
 """Questions with checked answers: a pixel's ray, vectors, a choice.
 
-Answers come as typed texts, or as the number of an option. The reply says what was wrong.
+An answer is a typed text, or the number of an option. The reply explains the mistake.
 VectorExercise and ChoiceExercise are also tables of a lecture file: [steps.exercise].
 """
 
@@ -33,7 +33,7 @@ CORRECT = "Correct."
 
 @dataclass(frozen=True)
 class RayExercise:
-    """Given the camera and a pixel, give its viewing ray.
+    """An exercise to find the viewing ray of a pixel, given the camera.
 
     pixel: (row, column), 0-based. size: (width, height) of the image. scaled: any positive
     multiple of the direction counts. tolerance: the largest error, relative to the vector.
@@ -95,12 +95,12 @@ class RayExercise:
 
     @property
     def replies(self) -> dict[str, str]:
-        """The replies to a wrong ray that is no classic mistake."""
+        """The replies to a wrong ray that is not a classic mistake."""
         where = "on the image plane" if self.camera.is_parallel else "at the eye"
         return {
             "origin": f"Not yet: the ray begins {where}.",
-            "length": "The direction is correct, its length is not: do not normalise it.",
-            "backwards": "That points backwards: t > 0 must lead into the scene.",
+            "length": "The direction is correct, but its length is not: do not normalise it.",
+            "backwards": "The direction points backwards: t > 0 must lead into the scene.",
             "direction": "Not yet: the origin is correct, but the direction is not.",
         }
 
@@ -112,7 +112,7 @@ class RayExercise:
             yield mistake, Ray(*run_rays(program, known, (mistake,)))
 
     def _one_part(self, given: dict[str, Floats], wrong_origin: bool) -> Judgement:
-        """Return the reply to the first wrong part. The ray as a whole is no classic mistake."""
+        """Return the reply to the first wrong part. The ray as a whole is not a classic mistake."""
         for mistake, wrong in self.wrong_rays():
             if wrong_origin and self._is_origin(given["origin"], wrong.origin):
                 return _made(mistake, "origin")
@@ -136,7 +136,7 @@ class RayExercise:
         return compare(given, exact, self.tolerance)
 
 
-# How a vector is drawn: an arrow at the eye, a point, or the corner of a viewport: left, top, d.
+# A vector is drawn as an arrow at the eye, a point, or the corner of a viewport (left, top, d).
 Drawn = Literal["arrow", "point", "corner"]
 DRAWN: dict[str, Drawn] = {
     **dict.fromkeys(("e", "eye", "p", "origin", "a", "target"), "point"),
@@ -159,8 +159,8 @@ class WrongVector(StrictTable):
 
 
 class Wanted(StrictTable):
-    """A vector that is asked for. scaled: any positive multiple counts. draw: how a wrong one is
-    shown in the outside view; None to choose by its name.
+    """A vector to find. scaled: any positive multiple counts. draw: the form of a wrong one in the
+    outside view; None to choose by its name.
     """
 
     name: str
@@ -174,7 +174,7 @@ class Wanted(StrictTable):
         """The replies to a wrong vector that is not among the known ones."""
         name = escaped(self.name)
         return {
-            "length": f"The direction of {name} is correct, its length is not.",
+            "length": f"The direction of {name} is correct, but its length is not.",
             "opposite": f"{name} points the other way.",
             "not yet": f"Not yet: {name} is not correct.",
         }
@@ -185,7 +185,7 @@ class Wanted(StrictTable):
 
 
 class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
-    """Give one vector or several, such as u, v, w of an eye, a target and an up."""
+    """An exercise to find one vector or several, such as u, v, w of an eye, a target and an up."""
 
     question: str
     answers: list[Wanted]
@@ -225,7 +225,7 @@ class VectorExercise(StrictTable, tag_field="kind", tag="vector"):
 
 class Option(StrictTable):
     """One answer to select. feedback: the reply to it. camera: the fields of the step's camera that
-    change when it is chosen.
+    change when it is selected.
     """
 
     text: str
@@ -235,7 +235,7 @@ class Option(StrictTable):
 
 
 class ChoiceExercise(StrictTable, tag_field="kind", tag="choice"):
-    """Select one of several answers; exactly one is correct."""
+    """An exercise to select one of several answers, of which exactly one is correct."""
 
     question: str
     options: list[Option]
@@ -257,7 +257,7 @@ AskedExercise = TypedExercise | ChoiceExercise
 
 
 def vectors(answers: Mapping[str, str], names: tuple[str, ...]) -> dict[str, Floats] | Judgement:
-    """Return the answers as vectors, or the reply to the first that is not one."""
+    """Return the answers as vectors, or the reply to the first that is not a vector."""
     given = {}
     for name in names:
         try:
@@ -272,7 +272,7 @@ def _made(mistake: Mistake, field: str) -> Judgement:
 
 
 def _recognised(reply: str, field: str = "") -> Judgement:
-    """Return the verdict on a mistake that has no name but the reply to it."""
+    """Return the verdict on a mistake that is named by its reply."""
     return Judgement(False, reply, field, reply)
 
 
@@ -281,7 +281,7 @@ def is_close(given: Floats, exact: Floats, tolerance: float) -> bool:
 
 
 def is_multiple(given: Floats, exact: Floats, tolerance: float) -> bool:
-    """Return True if two vectors have one direction; never for a vector without one."""
+    """Return True if two vectors have the same direction; False for a zero vector."""
     lengths = np.linalg.norm(given), np.linalg.norm(exact)
     if min(lengths) < 1e-12:
         return False

@@ -8,13 +8,13 @@ from .session import LectureSession
 
 BACK, NEXT = "back", "next"
 END = "End the lecture"
-STEP_EM, PLACE_EM = 1.6, 3.6  # the widths of the buttons that walk, and of the place between them
+STEP_EM, PLACE_EM = 1.6, 3.6  # the widths of the step buttons, and of the position between them
 
 
 def foot(session: LectureSession, typed: str = "") -> int | str | None:
     """Draw the foot. Return the number of the step to go to, BACK, NEXT, END, or None.
 
-    typed: digits of the step to go to.
+    typed: the typed digits of a step's number.
     """
     count, size, asked = len(session.lecture.steps), imgui.get_font_size(), None
     if imgui.button("<##back", ImVec2(STEP_EM * size, 0)):

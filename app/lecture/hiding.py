@@ -143,15 +143,15 @@ class HideExercise:
         """The replies, by the result of a move."""
         moved, hidden = escaped(self.moved), escaped(self.hidden)
         return {
-            "camera": "The camera has moved. Its first place counts: Ctrl+Z takes that back.",
-            "changed": f"Only the {moved} is to be moved; something else is not as it was.",
-            "size": f"The {moved} is to be moved; its shape and size are to stay.",
+            "camera": "The camera has moved. Only its first position counts: press Ctrl+Z.",
+            "changed": f"Move only the {moved}; something else has changed, too.",
+            "size": f"Move the {moved}, but keep its shape and size.",
             "nowhere": f"The {hidden} is not in the picture, even without the {moved}.",
-            "fills": f"The {moved} fills the whole picture: the eye is in it, or nearly so.",
+            "fills": f"The {moved} fills the whole picture: the eye is inside it, or nearly so.",
             "gone": f"The {moved} is not in the picture.",
             "behind": f"The {moved} is farther away: the closest hit is the {hidden}.",
             "none": f"Correct: at each pixel of the {hidden}, the closest hit is now the {moved}.",
-            "right": f"Correct: hardly a pixel shows the {hidden}; the {moved} is hit before.",
+            "right": f"Correct: hardly a pixel shows the {hidden}; the {moved} is hit first.",
         }
 
     @property
@@ -192,7 +192,7 @@ def _alike(before: Any, now: Any) -> bool:
 
 
 def percent(part: float) -> str:
-    """Return a fraction as a percentage; small ones have one decimal more."""
+    """Return a fraction as a percentage; small ones get one more decimal."""
     return f"{100 * part:.0f} %" if part >= 0.0995 else f"{100 * part:.1f} %"
 
 

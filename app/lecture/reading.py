@@ -51,7 +51,7 @@ BUILTINS = {  # by their titles
 STEPS = 1000
 BUILDS = 20  # of a step
 MOVE_S = 60
-PIECES = 20_000  # of a lecture's texts: formulas, and runs of words in one style; a slide has ten
+PIECES = 20_000  # formulas and runs of words in one style; a slide has about ten
 TITLE_LETTERS = 300
 Blocks = tuple[texts.Block, ...]
 Table = TypeVar("Table", StepTable, BuildTable)
@@ -59,10 +59,10 @@ _STEPS_LINE = re.compile(r"^[ \t]*(\[\[[ \t]*steps[ \t]*\]\]|steps[ \t]*=)", re.
 
 
 def is_lecture(path: str | Path) -> bool:
-    """Return True if a file is meant as a lecture: a .toml that has steps, and no objects of its
-    own.
+    """Return True if a file is meant as a lecture: a .toml that has steps, but no objects.
 
-    A broken one is recognised by a line that begins a step. An unreadable file is not a lecture.
+    A broken lecture is recognised by a line that begins a step. An unreadable file is not a
+    lecture.
     """
     if Path(path).suffix.lower() != ".toml":
         return False
@@ -105,7 +105,7 @@ def lecture_from_toml(text: str, folder: Path, source: str) -> Lecture:
     try:
         tables = parse_toml(text)
     except LucidaError as error:
-        if error.field == "lucida":  # the version: then the text is TOML
+        if error.field == "lucida":  # an error of the version, so the text is TOML
             raise located(error, Places(text), source) from None
         raise error.at_its_line(source) from None
     places = Places(text)
@@ -124,7 +124,7 @@ class _LectureReader:
     def __init__(self, folder: Path, source: str, places: Places) -> None:
         self._folder, self._source, self._places = folder, source, places
         self._scenes: dict[str, Scene] = {}
-        self._triangles = 0  # of all of them
+        self._triangles = 0  # of all scenes
         self._indexing = Indexing.LECTURE
         self._notes: list[str] = []
         self._old = ""  # the line about the first field of an older format
@@ -177,7 +177,7 @@ class _LectureReader:
         )
 
     def _named(self, file: LectureFile) -> Iterator[Path]:
-        """Yield the files that the lecture names itself: models, scenes, views."""
+        """Yield the models, scenes and views that the lecture names itself."""
         entries = [entry for table in file.scenes.values() for entry in _objects_of(table)]
         names = [entry.get("file") for entry in entries if isinstance(entry, dict)]
         builds = [build for step in file.steps for build in _builds_of(step)]
@@ -206,7 +206,7 @@ class _LectureReader:
         return scene_from_tables(table, self._folder, name)
 
     def _builds(self, table: StepTable, part: str, number: int) -> list[Step]:
-        """Return all builds of a step; the step's own fields are the first."""
+        """Return all builds of a step. The step's own fields are the first build."""
         _check_title("title", table.title, "the step's title")
         if table.part:
             _check_title("part", table.part, "the part's title")
@@ -247,7 +247,7 @@ class _LectureReader:
         return [replace(one, build=build) for build, one in enumerate(builds)]
 
     def _old_builds(self, table: StepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
-        """Return the texts of a step that may be of an older format, with what stays before."""
+        """Return (the text that stays, the new text) of each build of a step in any format."""
         if not isinstance(table, OldStepTable) or table.builds or not (old := fields_of(table)):
             return [((), blocks)]
         if not self._old:
@@ -256,7 +256,7 @@ class _LectureReader:
         return old_builds(table, blocks)
 
     def _build(self, table: StepTable) -> Step:
-        """Return a step at a build, from its table there. The caller knows the rest."""
+        """Return a step at a build from its table. The caller adds the other fields."""
         scene = self._scene(table.scene or BUILTIN_SCENES[0])
         view = scene.view if table.camera is None else self._view(table.camera)
         with under("options"):
@@ -315,7 +315,7 @@ class _LectureReader:
             raise LucidaError(
                 "one_based",
                 f"differs from pixels_from = {self._indexing.value}",
-                "leave it out; pixels_from, next to the title, is for the whole lecture",
+                "leave it out; pixels_from, next to the title, applies to the whole lecture",
             )
         return changes
 
@@ -352,7 +352,7 @@ def _builds_of(table: Any) -> list[Any]:
 def _check_build(build: BuildTable) -> None:
     if build.text and build.instead:
         raise not_together(
-            "instead", "text", "text is added below the text so far, instead replaces it"
+            "instead", "text", "text is added below the text so far; instead replaces it"
         )
     if not 0 <= build.move_s <= MOVE_S:
         raise LucidaError("move_s", f"{build.move_s:g} is out of range", f"give 0 to {MOVE_S}")

@@ -17,8 +17,8 @@ from .inheriting import changed_view
 from .model import Exercise
 from .schema import AnyExercise, HideTable, RayTable
 
-ANSWERS = 8  # of an exercise: vectors that are asked for, options
-MISTAKES = 32  # that are known of an answer
+ANSWERS = 8  # most vectors, or options, of an exercise
+MISTAKES = 32  # most known mistakes of an answer
 MOST_SEEN = 0.5  # of an object that counts as hidden
 
 
@@ -51,7 +51,7 @@ def pixel_of(
     """
     if min(pixel) < indexing.value:
         remedy = f"give row and column, {indexing.told}"
-        raise LucidaError("pixel", f"{list(pixel)} is no pixel", remedy)
+        raise LucidaError("pixel", f"{list(pixel)} is not a pixel", remedy)
     row, column = indexing.pixel(*pixel)
     if size is not None and (row >= size[1] or column >= size[0]):
         last = indexing.numbers((size[1] - 1, size[0] - 1))
@@ -96,7 +96,7 @@ def _check_options(entry: ChoiceExercise, view: View) -> None:
     if len(entry.options) < 2:
         raise LucidaError("options", f"holds {len(entry.options)}", "give at least two")
     if right != 1:
-        raise LucidaError("options", f"has {right} right ones", "set right = true in exactly one")
+        raise LucidaError("options", f"has {right} correct ones", "set right = true in exactly one")
     for number, option in enumerate(entry.options):
         if option.camera is not None:
             with under(f"options[{number}]"):

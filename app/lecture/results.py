@@ -1,7 +1,7 @@
 """The answers of a class, read from files and counted in one table by step.
 
-The files are those of `lucida lecture --answers`. They may hold anything: a line that cannot be
-read costs a line, and all text is escaped.
+The files are those of `lucida lecture --answers`. They may hold anything: a line that cannot
+be read is skipped and reported, and all text is escaped.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .answer_log import KeptAnswer
 
 LARGEST = 256 << 20  # bytes of a file
 LONGEST = 400  # characters of a text from a file
-MOST_LINES = 20  # that are reported of a file, which may be something else
+MOST_LINES = 20  # reported for one file, which may be of another kind
 HEAD = """\
 <!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8">
@@ -41,7 +41,7 @@ COLUMNS = ("step", "correct at once", "correct later", "not correct yet", "mista
 
 
 def summary(answers: Sequence[KeptAnswer]) -> str:
-    """Return the numbers of answers and students, in words."""
+    """Return the numbers of answers and students as text."""
     students = len(set(map(_student, answers)))
     return f"{counted((len(answers), 'answer'))} by {counted((students, 'student'))}"
 
@@ -77,7 +77,7 @@ def counts(answers: Sequence[KeptAnswer]) -> tuple[int, int, int]:
 
 
 def mistakes(answers: Sequence[KeptAnswer]) -> list[tuple[KeptAnswer, int]]:
-    """Return an answer with each mistake, and the number of students who made it, most first."""
+    """Return one answer for each mistake, and the number of students who made it, most first."""
     known: dict[str, KeptAnswer] = {}
     students: dict[str, set[str]] = defaultdict(set)
     for answer in answers:
@@ -89,7 +89,7 @@ def mistakes(answers: Sequence[KeptAnswer]) -> list[tuple[KeptAnswer, int]]:
 
 
 def _student(answer: KeptAnswer) -> str:
-    """Return a typed name, or the sitting. It is never shown."""
+    """Return the student's typed name, or the session. It is never shown."""
     return answer.name or answer.sitting
 
 
@@ -114,7 +114,7 @@ def _step(title: str, numbers: dict[str, int]) -> str:
 
 
 def _lecture_text(text: str) -> str:
-    """Return a lecture's text as HTML; as it is if it cannot be typeset."""
+    """Return a lecture's text as HTML, unchanged if it cannot be typeset."""
     text = shortened(text, LONGEST)
     try:
         return written(text)

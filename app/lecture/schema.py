@@ -55,7 +55,7 @@ class OldStepTable(StepTable):
 
 
 class BuildTable(StrictTable):
-    """[[steps.builds]]: what changes in a step. What it leaves out stays as in the build before.
+    """[[steps.builds]]: the changes in a step. Fields left out stay as in the build before.
 
     text: added below the text so far. instead: takes the place of that text.
     camera, options: the fields that change.
@@ -91,8 +91,9 @@ class RayTable(StrictTable, tag_field="kind", tag="ray"):
 class HideTable(StrictTable, tag_field="kind", tag="hide"):
     """[steps.exercise] kind = "hide": put one object where it hides another one from the camera.
 
-    object, hidden: their names in the step's scene. answer: where the object's middle may go.
-    at_most: the part of the hidden one's pixels that may still show it.
+    object, hidden: their names in the step's scene.
+    answer: a position of the object's middle that solves the exercise.
+    at_most: the largest part of the hidden object's pixels that may still show it.
     """
 
     question: str

@@ -1,7 +1,7 @@
-"""Check whether formulas can be typeset: find commands that MicroTeX does not know, and its errors.
+"""Check that formulas can be typeset: find commands unknown to MicroTeX, and its errors.
 
-This works without a window, on any thread. MicroTeX raises an error for an invalid formula, and
-draws an unknown command as it is written, in red.
+The check works without a window, on any thread. MicroTeX raises an error for an invalid formula,
+and draws an unknown command as it is written, in red.
 """
 
 from __future__ import annotations
@@ -27,8 +27,9 @@ _IN_PAIRS = (r"\left", r"\right", r"\begin", r"\end")  # unknown when they are a
 
 
 def first_mistake(formulas: Iterable[Written]) -> LucidaError | None:
-    """Return an error for the first formula that cannot be typeset; None if there is none, or if
-    formulas are shown as text here.
+    """Return an error for the first formula that cannot be typeset.
+
+    Return None if there is none, or if formulas are shown as text here.
     """
     for written in formulas:
         told = mistake(written.latex)
@@ -81,5 +82,5 @@ def _has_red(latex: str) -> bool:
 
 
 def _short(latex: str) -> str:
-    """Return the beginning of a formula. Not repr(), which would double its backslashes."""
+    """Return the beginning of a formula in quotes, without repr()'s doubled backslashes."""
     return f"'{one_line(latex[:40])}'"

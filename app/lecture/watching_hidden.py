@@ -20,20 +20,18 @@ Counted = tuple[HideExercise, Camera, tuple[int, int]]  # the image whose pixels
 
 
 class HiddenWatch:
-    """The replies to a hiding exercise, for the window's thread. wake: called when there is
-    something new.
-    """
+    """The replies to a hiding exercise, for the window's thread. wake: called for a new reply."""
 
     def __init__(self, wake: Callable[[], None]) -> None:
         self._counting: Background[tuple[Counted, int]] = Background("lucida-hidden", wake)
         self._task: HideExercise | None = None
-        self._before: RayImage | None = None  # that was there when the exercise began
+        self._before: RayImage | None = None  # the one when the exercise began
         self._alone: tuple[Counted, int] | None = None
         self.said: tuple[RayImage | None, Judgement | None] = (None, None)
 
     @property
     def busy(self) -> bool:
-        """True while the reply is still to come."""
+        """True until the reply is known."""
         return self._counting.busy
 
     def close(self) -> None:
@@ -42,7 +40,7 @@ class HiddenWatch:
     def judgement(self, host: Host, task: HideExercise) -> Judgement | None:
         """Return the reply to the scene of the newest full ray image; None before the first.
 
-        Call once a frame: it asks for the ray image.
+        Call this once a frame, because it requests the ray image.
         """
         host.renderers.trace(host.state)
         image = host.renderers.ray_image
@@ -54,7 +52,7 @@ class HiddenWatch:
             return self.said[1]
         request = image.request
         if image is self._before and request.scene is not host.state.scene:
-            return None  # of the step before
+            return None  # from the previous step
         if task.camera_moved(request.camera, request.size):
             self.said = image, task.when_moved
         elif (alone := self._without(task, request.camera, request.size)) is not None:
@@ -73,7 +71,7 @@ class HiddenWatch:
     def _take_count(self) -> None:
         outcome = self._counting.poll()
         if outcome is not None:
-            self._alone = outcome.value  # None if that failed: the image fails, too, and reports it
+            self._alone = outcome.value  # None if it failed; the image then fails, too
 
 
 def _counted(wanted: Counted) -> tuple[Counted, int]:

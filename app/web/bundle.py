@@ -20,9 +20,9 @@ def read_module(name: str) -> str:
 
 
 def bundle(entry: str) -> str:
-    """Return a module with all that it imports, each once, before its first user.
+    """Return a module with all its imports. Each occurs once, before its first user.
 
-    Raises ValueError for a name that two modules declare, or imports in a circle.
+    Raises ValueError for a name that two modules declare, and for circular imports.
     """
     texts: dict[str, str] = {}
     _add(entry, texts, ())

@@ -1,4 +1,4 @@
-"""An HTML page of one file: no other file, no address, and a policy that allows none.
+"""An HTML page in one file, with a policy that allows no other file or address.
 
 The modules, the styles and the data are in the file. Its content security policy names the one
 script and the one style by their hashes. All texts are escaped; data is JSON without `<`.
@@ -27,7 +27,7 @@ def document(title: str, entry: str, body: str, data: Mapping[str, Any], style: 
     """Return a page's HTML.
 
     entry: the module whose start() is called. body: HTML. data: values by the ids of the elements
-    that hold them as JSON. style: CSS after that of all pages.
+    that hold them as JSON. style: CSS after the common style.
     """
     script = bundle(entry) + _START
     css = files("lucida.app.web").joinpath("page.css").read_text("utf-8") + style

@@ -1,7 +1,7 @@
 """The rasterizer's shaders in GLSL ES 3.00, for WebGL 2. The shading has one source: shaders/.
 
-WebGL numbers no primitives, so triangles look their vertices up. It draws colours to the screen's 8
-bits, so that the display transform is part of the shading pass. A lens's pixels look up their
+WebGL has no primitive numbers, so triangles look up their vertices. It draws colours to the 8-bit
+screen, so the display transform is part of the shading pass. A lens's pixels look up their
 primitive in that pass, too.
 """
 

@@ -26,7 +26,7 @@ DERIVED = (
     "object_sphere",
     "texels",
 )  # by modules/scene.js
-# The values of a vertex that has none of its own.
+# The values of vertices without their own.
 EMPTY = {"normals": 0.0, "colors": 1.0, "uv": 0.0}
 
 
@@ -86,13 +86,15 @@ def _images(flat: FlatScene) -> list[dict[str, Any]]:
 
 
 def _opacity(texels: NDArray[np.int32]) -> tuple[NDArray[np.uint8], list[int]]:
-    """Return numbers of values, (height, width), and the values."""
+    """Return an index into the values for each texel, (height, width), and the values."""
     values, numbers = np.unique(texels, return_inverse=True)
     return numbers.reshape(texels.shape).astype(np.uint8), values.tolist()
 
 
 def _colors(texels: NDArray[np.int32]) -> tuple[NDArray[np.uint8], list[int]]:
-    """Return a picture in sRGB, (height, width, 3), and its 256 values in FlatScene."""
+    """Return a picture in sRGB, (height, width, 3), and FlatScene's number for each of the 256
+    bytes.
+    """
     gray = np.arange(256, dtype=np.uint8)[None, :, None].repeat(3, axis=2)
     most = (1 << TEXEL_BITS) - 1
     values = packed_texels(gray)[0] & most

@@ -55,8 +55,7 @@ def figure_of(host: Host, choice: FigureChoice) -> Figure:
     """Return a figure of what the window shows. Raises LucidaError, moderngl.Error."""
     page, ground = _page(host, choice)
     if choice.what == "outside":
-        figure = outside_figure(host, choice.size, choice.scale, page)
-        return Figure(figure.size, figure.parts, figure.unit, ground, figure.image)
+        return replace(outside_figure(host, choice.size, choice.scale, page), ground=ground)
     if choice.what == "probe":
         parts: Iterable[Part] = _formulas(host, choice, page)
     else:

@@ -1,4 +1,4 @@
-"""The basis of a camera: from a target, orthonormalised, and as the inverse of its matrix."""
+"""The basis of a camera: from a target, orthonormalised, and inverted."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ Basis = tuple[Vector, Vector, Vector]
 def looking_at(
     eye: Iterable[float], target: Iterable[float], up: Iterable[float]
 ) -> tuple[Vector, Basis]:
-    """Return an eye, and the orthonormal basis that looks from there at a target, with `up` upwards
-    in the image. Raises LucidaError.
+    """Return the eye and an orthonormal basis that looks from it at a target, with `up` upwards in
+    the image. Raises LucidaError.
 
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, "Constructing a basis".
     """
@@ -37,7 +37,7 @@ def looking_at(
     right = np.cross(upward / np.linalg.norm(upward), w)
     if not np.linalg.norm(right) > 1e-8:
         problem = f"{listed(upward)} is along the view direction"
-        raise LucidaError("up", problem, "choose another up")
+        raise LucidaError("up", problem, "give another up")
     u = right / np.linalg.norm(right)
     return three(position), (three(u), three(np.cross(w, u)), three(w))
 
@@ -54,7 +54,7 @@ def orthonormal(u: Vector, v: Vector, w: Vector) -> Basis:
     return three(across), three(upward), three(back)
 
 
-@lru_cache(maxsize=8)  # several views ask for the same camera's in a frame
+@lru_cache(maxsize=8)  # several views need the same camera's in a frame
 def inverse(eye: Vector, u: Vector, v: Vector, w: Vector) -> Floats:
     """Return camera_from_world (4, 4), read-only."""
     linear = np.linalg.inv(np.array((u, v, w)).T)

@@ -22,14 +22,14 @@ SMALLEST, LARGEST = 1e-12, 1e12  # lengths and coordinates that float32 can stil
 def volume(u: ArrayLike, v: ArrayLike, w: ArrayLike) -> float:
     """Return the volume that three vectors span: the determinant, negative if left-handed.
 
-    Computed as a triple product: LAPACK's determinant warns of a division by zero for denormal
+    The triple product is used because LAPACK's determinant warns of a division by zero for denormal
     numbers.
     """
     across, up, back = (np.asarray(vector, float).tolist() for vector in (u, v, w))
     return dot(cross(across, up), back)
 
 
-# Plain Python is faster than NumPy for 3-vectors; each new camera is checked.
+# Plain Python, because it is faster than NumPy for 3-vectors, and each new camera is checked.
 
 
 def three(values: ArrayLike) -> Vector:
@@ -47,9 +47,9 @@ def cross(a: Sequence[float], b: Sequence[float]) -> Vector:
 
 
 def number(name: str, value: object) -> float:
-    """Return a finite number of Python's or NumPy's as a float. A text that looks like one is not.
+    """Return a finite Python or NumPy number as a float. Text is rejected, even "1".
 
-    Raises LucidaError naming it.
+    Raises LucidaError naming `name`.
     """
     try:
         if isinstance(value, str | bytes | bool | np.bool_):
@@ -97,9 +97,7 @@ def listed(vector: Iterable[float]) -> str:
 
 
 def arrays_text(named: Any) -> str:
-    """Return a short repr of a named tuple of arrays: numbers and vectors, and of others the
-    shape.
-    """
+    """Return a short repr of a named tuple of arrays: numbers, vectors, and others' shapes."""
 
     def part(value: Any) -> str:
         array = np.asarray(value)

@@ -2,7 +2,7 @@
 
 K [R | t] maps a world point to a pixel: K is (3, 3) in pixels, upper triangular, with axes x to the
 right, y down and z forward; R and t are camera_from_world. The position of pixel (0, 0) is a
-convention, which differs between sources: integers are at the pixels' centres (OpenCV), or at their
+convention, which differs between sources. Integers are at the pixels' centres (OpenCV), or at their
 corners, with centres at .5 (COLMAP, and most renderers).
 Source: Hartley and Zisserman, Multiple View Geometry, "Camera models".
 """
@@ -21,7 +21,7 @@ from .checks import LARGEST, Floats, listed
 PixelOrigin = Literal["center", "corner"]
 Axes = Literal["opencv", "opengl"]
 
-SKEWED = 1e-9  # relative to fx: less is rounding
+SKEWED = 1e-9  # relative to fx; smaller skews are rounding
 IGNORE = "calibrate without"
 _OFFSET = {"center": 0.5, "corner": 0.0}
 _FLIP = np.diag([1.0, -1.0, -1.0])  # converts between y down, z forward and y up, z back
@@ -35,7 +35,7 @@ class Intrinsics(NamedTuple):
     t: Floats
 
 
-@np.errstate(all="ignore")  # Camera's own checks reject what overflows
+@np.errstate(all="ignore")  # Camera's own checks reject overflows
 def camera_fields(
     K: ArrayLike,
     camera_from_world: ArrayLike,
@@ -62,7 +62,7 @@ def camera_fields(
     linear = pose[:3, :3] if axes == "opencv" else _FLIP @ pose[:3, :3]
     try:
         across, down, forward = np.linalg.inv(linear).T
-        eye = 0.0 - np.linalg.solve(pose[:3, :3], pose[:3, 3])  # 0, not -0
+        eye = 0.0 - np.linalg.solve(pose[:3, :3], pose[:3, 3])  # avoids -0
     except np.linalg.LinAlgError:
         problem = f"its rows {', '.join(map(listed, pose[:3, :3]))} have no inverse"
         raise LucidaError("camera_from_world", problem, "give a rotation") from None
@@ -77,9 +77,7 @@ def camera_fields(
 
 
 def check_for_lens(K: Floats) -> None:
-    """Raise LucidaError for a K that a camera with a lens cannot have: a skew or a mirror, which
-    would have to come after the lens.
-    """
+    """Raise LucidaError for a skew or a mirror in K, which would have to come after the lens."""
     if not (K[0, 0] > 0 and K[1, 1] > 0 and abs(K[0, 1]) <= SKEWED * K[0, 0]):
         what = "mirrors the image" if K[0, 0] < 0 or K[1, 1] < 0 else f"has the skew {K[0, 1]:g}"
         raise LucidaError("K", f"{what} of a lens, which is not supported", IGNORE)
@@ -100,11 +98,11 @@ def viewport_of(
 
 
 def decomposed(pixel_to_direction: Floats, eye: ArrayLike, pixel_origin: str) -> Intrinsics:
-    """Return K, R and t of a camera, from the map from pixels to ray directions.
+    """Return K, R and t of a camera, given the map from pixels to ray directions.
 
     The ray through the point (x, y) of the image, in pixels from the corner of its first pixel, has
-    the direction pixel_to_direction @ (x, y, 1). K's diagonal is positive, except K[0, 0] of a
-    mirrored image.
+    the direction pixel_to_direction @ (x, y, 1). K's diagonal is positive, except that
+    K[0, 0] of a mirrored image is negative.
     """
     from_corner = np.array(
         [[1, 0, pixel_offset(pixel_origin)], [0, 1, pixel_offset(pixel_origin)], [0, 0, 1]]
@@ -154,8 +152,7 @@ def matrix(name: str, value: ArrayLike, *shapes: tuple[int, ...]) -> Floats:
 
 
 def pixel_offset(pixel_origin: str) -> float:
-    """Return the offset to add to a coordinate to measure it from the corner of the image's first
-    pixel.
+    """Return the offset that measures a coordinate from the corner of the image's first pixel.
 
     Raises LucidaError.
     """

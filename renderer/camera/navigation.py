@@ -26,8 +26,8 @@ Point = tuple[float, float]
 WORLD_UP = (0.0, 1.0, 0.0)
 NEAREST, FARTHEST = 1e-4, 100.0  # where the wheel stops, in units of the scene's reach
 WHEEL_STEP = 1.15  # things are larger by this factor after a turn of the wheel
-SLOWEST = 0.1  # of the scene's reach: the wheel's aim where nothing is hit
-STEEPEST_DEG = 89.5  # of the view direction above or below the horizon, so that nothing flips
+SLOWEST = 0.1  # part of the scene's reach: the least depth of aim()
+STEEPEST_DEG = 89.5  # angle of the view direction to the horizon, so that nothing flips
 
 
 def turned(camera: Camera, pivot: ArrayLike, axis: ArrayLike, angle_rad: float) -> Camera:
@@ -50,7 +50,7 @@ def orbited(camera: Camera, pivot: ArrayLike, right_rad: float, up_rad: float) -
     right_rad, up_rad: the drag to the right and upwards, as angles.
 
     The world's up stays up: there is no roll, and the view direction stops short of the poles. The
-    dragged point follows the pointer in mirrored and upside-down images too.
+    dragged point follows the pointer in mirrored and upside-down images, too.
     """
     up = np.asarray(WORLD_UP)
     right = _horizontal_right(camera)
@@ -124,8 +124,8 @@ def distance_for(camera: Camera, fov_y_deg: float) -> float:
     """Return the distance at which the present viewport has a vertical field of view; any basis.
 
     The angle between bottom v - d w and top v - d w, tan = |cross| / dot, is a quadratic equation
-    in d; of two distances, take the larger. Raises LucidaError if no distance has that angle (a
-    viewport that is all above, or all below, the eye's axis).
+    in d. If there are two distances, the larger one is returned. Raises LucidaError if no distance
+    has that angle (a viewport that is all above, or all below, the eye's axis).
     """
     most = 180 if camera.lens is None else 360
     if not 0 < fov_y_deg < most:
@@ -156,14 +156,16 @@ def distance_for(camera: Camera, fov_y_deg: float) -> float:
 
 
 def _distance_through_lens(camera: Camera, fov_y_deg: float) -> float:
-    """Return the largest distance with that field of view, by bisection: a larger one sees less."""
+    """Return the largest distance with that field of view, by bisection: the angle shrinks with
+    distance.
+    """
 
     def seen(exponent: float) -> float:
         return replace(camera, distance=2.0**exponent).fov_y_deg
 
     low, high = (round(math.log2(camera.distance)) + step for step in (-8.0, 16.0))
     if not seen(high) < fov_y_deg <= seen(low):
-        problem = f"{fov_y_deg:g} is beyond what this viewport has through the lens"
+        problem = f"{fov_y_deg:g} is more than this viewport has through the lens"
         raise LucidaError("field of view", problem, "give another angle")
     while high - low > 1e-7:
         middle = (low + high) / 2
@@ -211,8 +213,8 @@ def may_zoom(
 
 
 def aim(shown: Camera, direction: Floats, center: Vector, reach: float) -> float:
-    """Return the ray parameter that the wheel zooms at where nothing is hit: the depth of the
-    scene's center. Near it the steps become ever smaller, so that one can go on through.
+    """Return the ray parameter that the wheel zooms at if nothing is hit: the depth of the scene's
+    center, but never less than SLOWEST, so that the wheel can move past it.
     """
     slowest = SLOWEST * reach / max(float(np.linalg.norm(direction)), 1e-30)
     return max(parameter_of(shown, center, slowest), slowest)
@@ -226,7 +228,7 @@ def zoomed_by_wheel(
     target: Vector,
     scope: tuple[Vector, float],
 ) -> Camera | None:
-    """Return the camera after turns of the wheel, or None if that is too far.
+    """Return the camera after turns of the wheel, or None if it would be too near or too far.
 
     at: on the image plane under the mouse. target: the point there, at the parameter. scope: the
     scene's center and reach.
@@ -242,9 +244,9 @@ def switched_projection(camera: Camera, focus: ArrayLike) -> Camera:
     """Return the camera with the other projection, in which things at the depth of `focus` keep
     their size.
 
-    At ray parameter t, a perspective viewport sees t times its own width: a parallel one needs that
-    width (and back). If the focus is not in front of the eye, the viewport is kept. Parallel rays
-    pass through no lens: it is taken off.
+    At ray parameter t, a perspective viewport sees t times its own width, so a parallel one needs
+    that width (and vice versa). If the focus is not in front of the eye, the viewport is kept. The
+    lens is removed, because parallel rays pass through none.
     """
     camera = camera.pinhole
     parameter = depth_of(camera, focus) / camera.distance

@@ -1,4 +1,4 @@
-"""Report what one pixel of an image sees, in numbers: its ray and the hit."""
+"""Report one pixel of an image in numbers: its ray and the hit."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from lucida.renderer.system.errors import one_line
 def picked(scene: Scene, camera: Camera, frame: Frame, pixel: Pixel) -> dict[str, Any]:
     """Return a pixel of a frame with all channels, as JSON values.
 
-    object, t, z (the distance along -w), point and normal are None for the background; outside of
-    the lens, the ray is, too.
+    object, t, z (the distance along -w), point and normal are None for the background. The ray is
+    None, too, outside the lens.
     """
     ray = camera.ray(*pixel, frame.size)
     color = frame.channel("color")[pixel]
@@ -43,12 +43,12 @@ def picked(scene: Scene, camera: Camera, frame: Frame, pixel: Pixel) -> dict[str
 
 
 def as_text(seen: dict[str, Any]) -> str:
-    """Return the same as text, a line for each quantity."""
+    """Return picked()'s values as text, a line for each quantity."""
     return "\n".join(f"{name:14}{text}" for name, text in as_rows(seen))
 
 
 def as_rows(seen: dict[str, Any]) -> list[tuple[str, str]]:
-    """Return the same as names and texts."""
+    """Return picked()'s values as names and texts."""
     (row, column), (width, height) = seen["pixel"], seen["size"]
     lines = [("pixel", f"row {row}, column {column} of {width}x{height}, from 0")]
     if seen["object"] is None:

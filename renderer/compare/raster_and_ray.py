@@ -1,11 +1,10 @@
-"""Comparison of the two renderers' images: whether they agree, and if not, whether a line of the
-image explains it.
+"""Comparison of the two renderers' images, and of their differences with the lines of the image.
 
 This module defines parity: the tolerances, the causes and the errors. difference.py defines the
 differences, and their colours.
 
 Two pixels agree if object, ray parameter, normal and colour do, within the tolerances below.
-why_different.py finds out whether a line of the image explains that they do not.
+why_different.py finds the line of the image that explains a difference.
 """
 
 from __future__ import annotations
@@ -45,8 +44,8 @@ from .why_different import (
 
 COLOR = 2 / 255  # after the display transform
 
-# Labels; a cause's label is its index in CAUSES plus 1. SHADING: the same hit in both with a
-# different colour, and no line explains it.
+# Labels; a cause's label is its index in CAUSES plus 1. SHADING: the same hit in both images with a
+# different colour that no line explains.
 AGREE, SHADING, UNEXPLAINED = 0, 254, 255
 MOST_EXAMINED = 1 << 20  # disagreeing pixels; more are not due to edges
 
@@ -61,9 +60,9 @@ class Comparison:
     shading: the unexplained pixels of which only the colour differs. max_...: the largest errors
     among the agreeing pixels. worst: (row, column) of the largest difference in colour, with
     largest_color and rms_color over all pixels, as display values. labels: uint8 (height, width).
-    times_s: each renderer's time. nothing_hit: the reason that neither image shows anything, so
-    that nothing was compared; empty if something is hit. outside: pixels outside of the lens, which
-    do not count.
+    times_s: each renderer's time. nothing_hit: the reason that neither image shows anything and
+    nothing was compared; empty if something is hit. outside: pixels outside the lens, which do not
+    count.
     """
 
     size: tuple[int, int]
@@ -214,13 +213,13 @@ def compare_frames(
 ) -> Comparison:
     """Compare two frames of the same view with all CHANNELS; size: (width, height).
 
-    effects: the ray image has shadows or mirrors, so that many colours differ. No line is searched
-    for pixels of which only the colour differs. enlargement: of the faces in which the
-    raster image of a lens was looked up; None if both images were made from the pixels' rays.
+    effects: the ray image has shadows or mirrors, so that many colours differ. Lines are not
+    searched for pixels that differ only in colour. enlargement: of the faces in which the raster
+    image of a lens was looked up; None if both images were made from the pixels' rays.
     """
     depth, normal, color = _differences(raster, ray)
     same_hit = raster.channel("id") == ray.channel("id")
-    # Negated comparisons, so that NaN disagrees with everything.
+    # The comparisons are negated so that NaN disagrees with everything.
     same_hit &= ~(~(depth <= DEPTH_RELATIVE) | ~(normal <= NORMAL))
     agree = same_hit & (color <= COLOR)
     labels = np.where(agree, np.uint8(AGREE), np.uint8(UNEXPLAINED))

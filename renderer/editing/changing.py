@@ -1,10 +1,9 @@
 """A change to a scene: new tables, and the scene built from them.
 
-Items (an object or a light of a scene file, identified by a key) and fields in tables. An item
-keeps its key in all versions of a scene, whether it is moved, deleted or restored; no two items
-share one.
+An item is an object or a light of a scene file, identified by a key. It keeps its key in all
+versions of a scene, even if it is moved, deleted or restored; no two items share one.
 Scenes and their tables are never modified. Both scenes share the objects that did not change, so
-that renderers detect quickly what did.
+that renderers detect changes quickly.
 """
 
 from __future__ import annotations
@@ -93,12 +92,12 @@ def find(scene: Scene, item: Item) -> tuple[Kind, int]:
     """Return the list of the file that an item is in, and its index there. Raises LucidaError."""
     place = origin_of(as_tables(scene))[0].places.get(item)
     if place is None:
-        raise LucidaError("", "is not in this scene any more", "choose another object")
+        raise LucidaError("", "is not in this scene any more", "select another object")
     return place
 
 
 def present(scene: Scene, items: Iterable[Item]) -> tuple[Item, ...]:
-    """Return those of the items that the scene still has: for a selection, after undo."""
+    """Return the items that are still in the scene, such as a selection's after undo."""
     there = origin_of(as_tables(scene))[0].places
     return tuple(item for item in items if item in there)
 
@@ -138,7 +137,7 @@ def entry_of(scene: Scene, item: Item) -> FileEntry:
     """Return an object's table and the objects built from it. Raises LucidaError for a light."""
     kind, number = find(scene, item)
     if kind != "objects":
-        raise LucidaError("", "is a light", "choose an object")
+        raise LucidaError("", "is a light", "select an object")
     return origin_of(as_tables(scene))[0].entries[number]
 
 

@@ -42,8 +42,8 @@ def is_unsaved(scene: Scene) -> bool:
         return True
     if saved.path is not None and saved.path.parent != origin.folder:
         tables = relocated(tables, origin.folder, saved.path.parent)
-    # A scene file without a name gets its own name; one without a camera gets one that shows
-    # everything, which is saved when it changes.
+    # The name defaults to the file's, and the camera to one that shows everything, which is saved
+    # if it changes.
     default = saved.path.stem if saved.path is not None else scene.name
     if (tables.get("name") or scene.name) != (saved.tables.get("name") or default):
         return True
@@ -52,7 +52,7 @@ def is_unsaved(scene: Scene) -> bool:
 
 
 def are_versions(one: Scene, other: Scene) -> bool:
-    """Return True if one scene is an edited version of the other, or both are of a third."""
+    """Return True if one scene is an edited version of the other, or both are of the same scene."""
     if one is other:
         return True
     origins = one.origin, other.origin
@@ -81,13 +81,13 @@ def suggested_file(scene: Scene) -> Path:
 def save(
     scene: Scene, path: str | Path | None = None, view: View | None = None, force: bool = False
 ) -> Scene:
-    """Save the scene atomically. Return it, now belonging to that file: the same objects.
+    """Save the scene atomically. Return it, now belonging to that file, with the same objects.
 
     path: None for its own file. The author's text is kept wherever nothing has changed. view: the
     file's camera; None for the scene's own. force: save even if another program has changed the
     scene's own file since it was read; without it, that raises ChangedOnDiskError. Raises
     CommentsLostError if the file's comments cannot be kept, and LucidaError naming the file;
-    nothing is lost then.
+    nothing is lost in that case.
     """
     scene = as_tables(scene)
     chosen = path or file_of(scene)
@@ -116,7 +116,7 @@ def _check_unchanged(path: Path, saved: SavedFile) -> None:
     except LucidaError:
         if path.exists():
             raise
-        return  # it is gone: saving brings it back
+        return  # it was deleted; saving restores it
     if now != saved.text:
         raise ChangedOnDiskError(
             "",

@@ -1,7 +1,7 @@
 """Change the materials of objects.
 
-An object that is changed gets a material of its own: the scene file shares a material between
-several objects by its name.
+A changed object gets its own material, because several objects may share a named material in the
+scene file.
 """
 
 from __future__ import annotations

@@ -127,13 +127,13 @@ def duplicate(
 
 
 def rename(scene: Scene, item: Item, name: str) -> Scene:
-    """Return the scene with an item renamed; "" for no name."""
+    """Return the scene with an item renamed. name: "" for no name."""
     return set_field(scene, [item], "name", name or None)
 
 
 def hide(scene: Scene, items: Sequence[Item], hidden: bool = True) -> Scene:
-    """Return the scene with some items hidden, or shown. No renderer draws hidden ones; ids
-    stay.
+    """Return the scene with some items hidden, or shown. No renderer draws hidden items; ids
+    stay the same.
     """
     return set_field(scene, items, "hidden", True if hidden else None)
 

@@ -1,4 +1,4 @@
-"""The contents of a scene, as a list to select from: objects, then lights."""
+"""The contents of a scene as a list for selection: objects, then lights."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Load the scene of a name that a user types: a built-in scene's, or a file's."""
+"""Load a scene by the name that a user types: a built-in scene or a file."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ _BUILTIN_FOLDER = Path(__file__).parent / "builtin"
 def load_scene(source: str | Path) -> Scene:
     """Return the scene of a built-in name, a scene file (.toml) or a model file.
 
-    A name wins over a file of the same name; write ./name for the file. A model file alone gets the
-    default lights and a view that shows all of it. Raises LucidaError naming the file, the field
-    and the remedy.
+    A built-in name wins over a file of the same name; write ./name for the file. A model file alone
+    gets the default lights and a view that shows all of it. Raises LucidaError naming the file, the
+    field and the remedy.
     """
     path = path_of(source, "scene")
     if source in SCENE_NAMES:

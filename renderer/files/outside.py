@@ -1,7 +1,7 @@
-"""The files that a scene names, and which of them are outside its folder.
+"""A sandbox for the files that a scene names, and checks for files outside its folder.
 
-A scene file may name a model anywhere: "../m.obj", "/home/m.obj", a link that leads there. A reader
-of somebody else's file stays inside its folder, unless the user has agreed.
+A scene file may name a model anywhere: "../m.obj", "/home/m.obj", or a link that leads there.
+Reading a file from somebody else stays inside its folder unless the user has agreed.
 """
 
 from __future__ import annotations
@@ -20,7 +20,9 @@ LISTED = 8  # files that an error names
 
 
 class OutsideError(LucidaError):
-    """A file names others outside of its folder, to which the user has not agreed. files: those."""
+    """A file names others outside its folder, to which the user has not agreed. files: their
+    paths.
+    """
 
     def __init__(self, source: str, files: tuple[Path, ...]) -> None:
         shown = ", ".join(map(str, files[:LISTED])) + ", ..." * (len(files) > LISTED)
@@ -31,9 +33,9 @@ class OutsideError(LucidaError):
 
 
 class Fence:
-    """Round a folder. agreed: files outside of it that may be read; None: all of them.
+    """A sandbox around a folder. agreed: files outside it that may be read; None for all.
 
-    outside: those that were named so far.
+    outside: the files outside that were named so far.
     """
 
     def __init__(self, folder: Path, agreed: frozenset[Path] | None) -> None:
@@ -51,8 +53,8 @@ _fence: ContextVar[Fence | None] = ContextVar("what may be read", default=None)
 
 @contextlib.contextmanager
 def kept_inside(source: Path, agreed: frozenset[Path] | None = frozenset()) -> Iterator[Fence]:
-    """Require that the files named during the block, on this thread, are in the folder of `source`,
-    or agreed to. Raises OutsideError.
+    """Require that files named during the block, on this thread, are in the folder of `source` or
+    agreed to. Raises OutsideError.
     """
     fence = Fence(source.parent, agreed)
     try:
@@ -75,8 +77,9 @@ def check_inside(files: Iterable[Path]) -> None:
 
 
 def outside(files: Iterable[Path], folder: Path) -> tuple[Path, ...]:
-    """Return the files that are not in the folder or below it, with links followed; absolute, links
-    as they are.
+    """Return the files that are not in the folder or below it, after following links.
+
+    The returned paths are absolute, with their links.
     """
     root = os.path.realpath(folder)
     found = (Path(os.path.abspath(file)) for file in files if not _is_inside(file, root))
@@ -86,10 +89,10 @@ def outside(files: Iterable[Path], folder: Path) -> tuple[Path, ...]:
 def _is_inside(file: Path, root: str) -> bool:
     try:
         if os.name == "nt" and str(file).startswith("\\\\") and not root.startswith("\\\\"):
-            return False  # on another machine, which is not even asked
+            return False  # on another machine, which must not be contacted
         return Path(os.path.realpath(file)).is_relative_to(root)
     except (OSError, ValueError):
-        return True  # reading it reports the error
+        return True  # the error is reported when the file is read
 
 
 def model_files(scene: Scene) -> tuple[Path, ...]:

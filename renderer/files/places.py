@@ -1,6 +1,6 @@
 """The lines of fields in a TOML text, for errors.
 
-The text must be one that tomllib has read without complaint.
+The text must be one that tomllib has read without an error.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from lucida.renderer.system.errors import LucidaError
 
 Path = tuple[str | int, ...]
 
-_NEXT = '"\ue000"'  # in place of a text that begins in the next line
+_NEXT = '"\ue000"'  # replaces a text that begins in the next line
 _LONG_TEXT = re.compile(r'"""(?:[^\\]|\\.)*?"{3,5}|' + r"'''.*?'{3,5}", re.DOTALL)
 _HEADER = re.compile(r"\s*(\[\[?)(.*?)\]\]?\s*(?:#.*)?")
 _KEY = re.compile(r"""\s*((?:[\w-]+|"[^"]*"|'[^']*'|[ \t.])+?)\s*=(.*)""")
@@ -21,9 +21,7 @@ _PART = re.compile(r"""[\w-]+|"(?:[^"\\]|\\.)*"|'[^']*'""")
 
 
 class Places:
-    """The lines of a TOML text's fields: of each key and each table. A value's parts are at its
-    key.
-    """
+    """The lines of all keys and tables in a TOML text. A value's parts are at its key."""
 
     def __init__(self, text: str) -> None:
         self._lines: dict[Path, int] = {(): 1}
@@ -32,8 +30,8 @@ class Places:
                 self._lines.setdefault(path[:length], line)
 
     def line(self, field: str) -> int:
-        """Return the line, from 1, of a field such as `steps[3].camera.w`, or the line of what it
-        is in if it is missing.
+        """Return the line, from 1, of a field such as `steps[3].camera.w`, or the line of its
+        parent if it is missing.
         """
         path = parsed_path(field)
         while path not in self._lines:
@@ -51,7 +49,7 @@ def _fields(text: str) -> Iterator[tuple[Path, int]]:
         if depth <= 0 and (header := _HEADER.fullmatch(line)):
             table = ()
             *parents, last = _keys(header[2])
-            for key in parents:  # below an array of tables, its last element
+            for key in parents:  # a name below an array of tables belongs to its last element
                 table = (*table, key)
                 if table in counts:
                     table = (*table, counts[table] - 1)
@@ -74,7 +72,7 @@ def _shortened(found: re.Match[str]) -> str:
 
 
 def located(error: LucidaError, places: Places, source: str) -> LucidaError:
-    """Return the error with its file and line, `lecture.toml:12`, as editors find it."""
+    """Return the error with its file and line, `lecture.toml:12`, in the form that editors open."""
     where = f"{source}:{places.line(error.field)}"
     return LucidaError(error.field, error.problem, error.remedy, where)
 

@@ -1,4 +1,4 @@
-"""Read a user's file, whole and within bounds, or say in one line why not."""
+"""Read a user's file completely and within size limits, or report the reason in one line."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def naming(source: str | Path) -> Iterator[None]:
 
 
 def path_of(source: str | Path, field: str) -> Path:
-    """Return the path that a Python user gave. Raises LucidaError for None and the like."""
+    """Return the path that a Python user passed. Raises LucidaError for None and other types."""
     try:
         return Path(source)
     except TypeError:
@@ -43,7 +43,7 @@ def full_path(path: str | Path) -> Path:
 
 
 def first_bytes(path: Path, most: int) -> bytes:
-    """Return the first bytes of an ordinary file; none of any other, such as a pipe. Raise OSError
+    """Return the first bytes of an ordinary file, b"" for any other, such as a pipe. Raise OSError
     or ValueError if it cannot be read."""
     if not stat.S_ISREG(path.stat().st_mode):
         return b""
@@ -67,13 +67,13 @@ def read_file(path: Path, most_bytes: int) -> bytes:
 
 
 def _open_at_once(path: str, flags: int) -> int:
-    """Open a file, without waiting: a pipe may have taken its place since it was looked at."""
+    """Open a file without blocking: a pipe may have taken its place since it was checked."""
     return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def check_file(path: Path) -> int:
-    """Return the size of an ordinary file, in bytes. Raise LucidaError naming any other: a pipe or
-    a device may have no end."""
+    """Return the size of an ordinary file, in bytes. Raise LucidaError naming any other file: a
+    pipe or a device may have no end."""
     source = str(path)
     try:
         status = path.stat()
@@ -138,13 +138,13 @@ def suggestion(given: str, known: Iterable[str]) -> str:
 
 
 def close_matches(given: str, known: Iterable[str]) -> list[str]:
-    """Return the known name that is most alike, whatever its case; none if no name is."""
+    """Return a list of the most similar known name, ignoring case; it is empty if none is close."""
     names = {name.lower(): name for name in reversed(list(known))}
     return [names[name] for name in difflib.get_close_matches(given.lower(), names, 1)]
 
 
 def absence(path: Path) -> str:
-    """Return the problem of a missing file: where it was looked for."""
+    """Return the problem of a missing file, with the folder of a relative path."""
     problem = "does not exist"
     with contextlib.suppress(OSError, ValueError):
         if not path.is_absolute():

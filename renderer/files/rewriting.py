@@ -1,7 +1,7 @@
 """Put changed tables into a scene file's text; all other text stays as its author wrote it.
 
-tomlkit keeps the comments, and counts those above a header to the table before it. They are
-therefore put below their header while the tables are changed.
+tomlkit keeps the comments, but assigns those above a header to the previous table. They are
+therefore moved below their header while the tables are changed.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from .toml_writing import toml_text, value_text
 LISTS = ("objects", "lights")
 _COMMENT = r"[ \t]*#[^\n]*\n"
 _HEADER = r"^[ \t]*\[[^\n]*\n"
-# The comments that stand directly above a header, and those above them after a blank line.
+# The comments directly above a header, and those above them after a blank line.
 _ABOVE = re.compile(rf"((?:(?<=\n\n)(?:{_COMMENT}|\n)+)|(?:^{_COMMENT})+)({_HEADER})", re.MULTILINE)
 _BELOW = re.compile(rf"({_HEADER})((?:^#\ue000[^\n]*\n)+)", re.MULTILINE)
 Tables = dict[str, Any]
@@ -34,8 +34,8 @@ class CommentsLostError(LucidaError):
 def rewritten(text: str, old: Tables, old_keys: Keys, new: Tables, new_keys: Keys) -> str | None:
     """Return the text of a scene file with the tables `new` in place of `old`, which it holds.
 
-    old_keys, new_keys: of their objects and lights. The same key is the same table.
-    Return None if the arrangement of the tables in the text cannot hold the change.
+    old_keys, new_keys: of their objects and lights. The same key means the same table.
+    Return None if the change does not fit the arrangement of the tables in the text.
     """
     if new == old and new_keys == old_keys:
         return text

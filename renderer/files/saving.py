@@ -1,7 +1,7 @@
 """Save scenes: the TOML file that loads as the same scene.
 
-A scene from a scene file is written as it was written there, with new paths of its models; one of a
-model file alone, or made in Python, from its parts.
+A scene from a scene file keeps its author's text, with new paths of its models. A scene of a model
+file alone, or one made in Python, is written from its parts.
 """
 
 from __future__ import annotations
@@ -51,10 +51,10 @@ def save_scene(path: str | Path, scene: Scene, view: View | None = None) -> None
 
 
 def scene_text(scene: Scene, path: Path, view: View | None = None) -> str:
-    """Return the text of a scene file at `path`, which is absolute: as its author wrote it where
-    nothing has changed.
+    """Return the text of a scene file at `path`, which is absolute. Unchanged parts stay as their
+    author wrote them.
 
-    Raises LucidaError; CommentsLostError if that is impossible in the scene's own file.
+    Raises LucidaError, or CommentsLostError if the scene's own file would lose its comments.
     """
     tables, origin = file_tables(scene, path, view), scene.origin
     if origin is not None and (saved := origin.saved).tables is not None and saved.text:
@@ -117,7 +117,7 @@ def _object(number: int, entry: SceneObject, folder: Path) -> dict[str, Any]:
     if not isinstance(entry.shape, Sphere):
         raise LucidaError(
             f"objects[{number}]",
-            f"{entry.name or 'a mesh'!r} is a mesh that was made in Python, in no file",
+            f"{entry.name or 'a mesh'!r} is a mesh made in Python, which is in no file",
             "save the mesh as a model file and load that",
         )
     table: dict[str, Any] = {"type": "sphere", "name": entry.name}
@@ -127,8 +127,8 @@ def _object(number: int, entry: SceneObject, folder: Path) -> dict[str, Any]:
 
 
 def material_table(material: Material, folder: Path) -> dict[str, Any]:
-    """Return a material as a table of a scene file in `folder`, in which nothing is left to a
-    default. Raises LucidaError for an image that is in no file, or not in that folder.
+    """Return a material as a table of a scene file in `folder`, including default values. Raises
+    LucidaError for an image that is in no file, or not in that folder.
     """
     table: dict[str, Any] = {
         "diffuse": list(material.diffuse),
@@ -166,9 +166,7 @@ def _image_path(field: str, file: Path | None, folder: Path) -> str:
 
 
 def _files(value: Any, where: str = "") -> Iterator[tuple[str, dict[str, Any], str]]:
-    """Yield for each file that a scene file's tables name its place, the table that it is in, and
-    its key there.
-    """
+    """Yield the place, the table and the key of each file that a scene file's tables name."""
     for key, part in value.items() if isinstance(value, dict) else enumerate(value):
         place = f"{where}[{key}]" if isinstance(key, int) else f"{where}.{key}".lstrip(".")
         if isinstance(part, dict | list):
@@ -183,7 +181,7 @@ def _check_images(tables: dict[str, Any]) -> None:
         if table.get("type") != "model" and Path(table[key]).is_absolute():
             raise LucidaError(
                 place.removesuffix(".file"),
-                f"{Path(table[key]).name!r} does not lie in the new file's folder",
+                f"{Path(table[key]).name!r} is not in the new file's folder",
                 "save the scene where its images are",
             )
 
@@ -197,8 +195,8 @@ def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
 
 
 def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, Any]:
-    """Return a scene file's tables with their paths relative to another folder, or absolute for
-    None.
+    """Return a scene file's tables with their paths relative to another folder, or absolute if
+    it is None.
     """
     if new == old:
         return tables

@@ -80,8 +80,8 @@ def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -
 def scene_from_tables(
     tables: dict[str, Any], folder: Path, name: str = "", text: str = ""
 ) -> Scene:
-    """Return the scene of a scene file's tables. text: the file's own; "" for tables inside
-    another file.
+    """Return the scene of a scene file's tables. text: the file's; "" for tables in another
+    file.
     """
     keys = _keys_of(tables, "objects", ()), _keys_of(tables, "lights", framing.LIGHTS)
     return _scene(Origin("", tables, folder), keys, name, SavedFile(None, text, tables, keys))
@@ -96,8 +96,8 @@ def changed_scene(scene: Scene, tables: dict[str, Any], keys: Keys) -> Scene:
     """Return the scene with other tables.
 
     keys: of their objects and lights, in order.
-    Objects with the same key and table stay the same, moved ones keep their arrays, and models are
-    not read again. Raises LucidaError.
+    Objects with the same key and table stay the same, moved objects keep their arrays, and model
+    files are not read again. Raises LucidaError.
     """
     assert scene.origin is not None
     changed = _scene(replace(scene.origin, tables=tables), keys, scene.name, scene.origin.saved)
@@ -137,7 +137,7 @@ def _scene(origin: Origin, keys: Keys, name: str, saved: SavedFile) -> Scene:
 
 
 class _Builder:
-    """Builds the objects of a scene. What has not changed is taken from the scene before."""
+    """Builds the objects of a scene. Unchanged objects are taken from the previous scene."""
 
     def __init__(self, tables: SceneFile, origin: Origin) -> None:
         self._parts = SceneParts(origin.folder, origin.entries)
@@ -162,7 +162,7 @@ class _Builder:
         ]
         models = (entry.file for entry in fields if isinstance(entry, ModelTable))
         check_inside(self._folder / file for file in models)
-        # Counted before they are built: a few lines can make more than memory holds.
+        # Count them before building: a few lines can make more triangles than memory holds.
         triangles = sum(map(made_triangles, fields))
         check_count(triangles, TRIANGLES, "triangles", "objects", SPLIT)
         objects = 0
@@ -190,7 +190,7 @@ class _Builder:
         fields: SphereTable | MeshTable,
         material: Material | None,
     ) -> FileEntry:
-        """Return what one table becomes: one object, or one for each part of a model."""
+        """Return the objects of one table: a single one, or one for each part of a model."""
         if isinstance(fields, SphereTable):
             sphere = Sphere(fields.center, fields.radius)
             alone = SceneObject(sphere, material or Material(), fields.name, fields.hidden)
@@ -202,7 +202,7 @@ class _Builder:
             model = self._parts.model(fields.file)
             if has_image and (part := unmapped(model.objects)) is not None:
                 name = "/".join(filter(None, (fields.name, part.name)))
-                problem = f"has a texture, and {name!r} of {fields.file!r} no texture coordinates"
+                problem = f"has a texture; {name!r} of {fields.file!r} has no texture coordinates"
                 remedy = "export the model with them (UVs), or give a material without texture"
                 raise LucidaError("material", problem, remedy)
         else:
@@ -227,7 +227,7 @@ class _Builder:
             shown = material or part.material
             if single_sided is not None:
                 shown = replace(shown, single_sided=single_sided)
-            # A part that its own material cuts away altogether is hidden as it is read.
+            # A part is read as hidden if its own material cuts it away altogether.
             is_gone = material is None and part.hidden
             objects.append(SceneObject(shape, shown, name, fields.hidden or is_gone))
         return FileEntry(key, table, fields, material, made, tuple(objects), path, notes)

@@ -1,8 +1,8 @@
-"""The tables of scene files and view files, as msgspec structures: the documentation of the format.
+"""The tables of scene files and view files, as msgspec structures that document the format.
 
 Constraints beyond the types are checked by the structures that the tables become.
 
-A colour is [red, green, blue] in linear light, or "#rrggbb" in sRGB, as colour pickers give it.
+A colour is [red, green, blue] in linear light, or "#rrggbb" in sRGB, as in colour pickers.
 Lengths are in world units, angles in degrees, y is up.
 """
 
@@ -31,9 +31,9 @@ class LensFields(StrictTable):
 
 
 class CameraFields(LensFields):
-    """[camera] as the camera is, in view files and scene files.
+    """[camera] by the camera's own fields, in view files and scene files.
 
-    Every field is by default the canonical camera's.
+    The default of every field is the canonical camera's.
 
     lens: its model and coefficients. fit: widen the viewport to each image's aspect ratio.
     """
@@ -47,10 +47,10 @@ class CameraFields(LensFields):
 
 
 class LookAtFields(LensFields, kw_only=True):
-    """[camera] by what it looks at, in view files and scene files: given away by `target`.
+    """[camera] by its target, in view files and scene files; recognised by `target`.
 
     Give fov_y_deg, or the distance of a viewport 1 high. aspect: the viewport's width over its
-    height; all of it is in the picture when it is fitted. fit: as above, by default true.
+    height; a fitted picture contains all of it. fit: as above, by default true.
     """
 
     eye: Numbers3
@@ -78,17 +78,17 @@ class TextureTable(StrictTable):
     """texture = { file, wrap, scale, offset, rotate_deg }, or the file alone: an image that diffuse
     multiplies.
 
-    file: its path, relative to the scene file, and in that file's folder. wrap: what lies beyond
+    file: its path, relative to the scene file, and in that file's folder. wrap: the texels beyond
     the image: "repeat", "mirror" or "clamp", or two of them, across and up. scale: how often the
-    image fits onto what it would otherwise cover once. offset: added to the place that is looked
-    up, in the image's own widths and heights: 0.25 shows what is a quarter of it farther right.
-    rotate_deg: turns that place counter-clockwise about the image's lower left corner, after the
-    scale and before the offset; not on a sphere.
+    image fits into the area that it would otherwise cover once. offset: added to the texture
+    coordinates, in widths and heights of the image; 0.25 shows the part a quarter farther right.
+    rotate_deg: turns the coordinates counter-clockwise about the image's lower left corner, after
+    the scale and before the offset; not on a sphere.
 
-    What it covers: each side of a box; a rectangle, its lower edge in front (+z); a disk, and the
-    ends of a cylinder and a cone, as a picture of the square around them; the side of a cylinder, a
-    cone, a torus (around its tube from the outside, upwards) and a sphere (from pole to pole) once
-    around y, its middle in front (+z). A model has coordinates of its own, or cannot have any.
+    The image covers each side of a box; a rectangle, with its lower edge in front (+z); and the
+    square around a disk or an end of a cylinder or cone. It covers the side of a cylinder, a cone,
+    a torus (around its tube from the outside, upwards) and a sphere (from pole to pole) once around
+    y, with its middle in front (+z). A model needs its own coordinates.
     """
 
     file: str
@@ -99,10 +99,11 @@ class TextureTable(StrictTable):
 
 
 class MetalTable(StrictTable):
-    """metal = { file, metalness, roughness }, or the file alone: an image of where the surface is a
-    metal (blue, as in glTF), whose highlight has the texture's colour, and how rough it is (green).
-    It covers what the texture covers, or would. metalness, roughness: factors of these. Without a
-    file, they hold everywhere."""
+    """metal = { file, metalness, roughness }, or the file alone: an image of the metalness
+    (blue, as in glTF) and the roughness (green). A metal's highlight has the texture's colour. The
+    image covers the same area as a texture. metalness, roughness: factors of these values; without
+    a file, the values everywhere.
+    """
 
     file: str = ""
     metalness: float = 1.0
@@ -112,10 +113,10 @@ class MetalTable(StrictTable):
 class MaterialTable(StrictTable):
     """[materials.NAME], or a table in an object's `material`: with a checker, a texture, or none.
 
-    diffuse is white where a texture or a metal is given and it is not. cutout: where the texture's
-    opacity is less than this, 0 to 1, there is a hole, which rays and shadows pass.
-    single_sided: a triangle is seen only on the side from which its corners go counter-clockwise;
-    its shadow stays. Both leave spheres as they are.
+    diffuse: white by default if there is a texture or a metal. cutout: an opacity, 0 to 1; the
+    surface has a hole, for rays and shadows, wherever the texture's is less.
+    single_sided: a triangle is visible only from the side on which its corners go
+    counter-clockwise; it keeps its shadow. Neither of the two affects spheres.
     """
 
     diffuse: ColorValue | None = None
@@ -131,7 +132,7 @@ class MaterialTable(StrictTable):
 class ObjectTable(StrictTable, tag_field="type"):
     """The fields of all [[objects]]. material: a name from [materials], or a table.
 
-    hidden: neither renderer draws it. locked: the window's mouse leaves it alone.
+    hidden: neither renderer draws it. locked: the window's mouse cannot select or move it.
     """
 
     name: str = ""
@@ -188,15 +189,15 @@ class RoundTable(MeshTable):
 
 
 class CylinderTable(RoundTable, tag="cylinder"):
-    """About the y axis, closed."""
+    """A closed cylinder about the y axis."""
 
 
 class ConeTable(RoundTable, tag="cone"):
-    """About the y axis, its tip up, closed."""
+    """A closed cone about the y axis, its tip up."""
 
 
 class TorusTable(MeshTable, tag="torus"):
-    """About the y axis: a tube of tube_radius around a circle of radius."""
+    """A torus about the y axis: a tube of tube_radius around a circle of radius."""
 
     radius: float = 0.5
     tube_radius: float = 0.2
@@ -207,7 +208,7 @@ class TorusTable(MeshTable, tag="torus"):
 
 class ModelTable(MeshTable, tag="model", kw_only=True):
     """A model file, its path relative to the scene file. material: replaces the file's own.
-    single_sided: replaces what its materials say."""
+    single_sided: replaces its materials' value."""
 
     file: str
     single_sided: bool | None = None
@@ -226,7 +227,7 @@ AnyObject = (
 
 
 class LightTable(StrictTable, tag_field="type"):
-    """The fields of all [[lights]]. hidden: it is off. locked: as of objects."""
+    """The fields of all [[lights]]. hidden: the light is off. locked: as for objects."""
 
     name: str = ""
     color: ColorValue = (1.0, 1.0, 1.0)
@@ -235,13 +236,13 @@ class LightTable(StrictTable, tag_field="type"):
 
 
 class PointLightTable(LightTable, tag="point", kw_only=True):
-    """Shines from `position`, equally far and near."""
+    """A light that shines from `position`, without falling off."""
 
     position: Numbers3
 
 
 class DirectionalLightTable(LightTable, tag="directional", kw_only=True):
-    """Shines along `direction`, from infinitely far."""
+    """A light that shines along `direction`, from infinitely far away."""
 
     direction: Numbers3
 
@@ -250,9 +251,9 @@ AnyLight = PointLightTable | DirectionalLightTable
 
 
 class SceneFile(StrictTable, kw_only=True):
-    """A scene file. Without lights it gets the default ones, without camera one that sees it all.
+    """A scene file. The default lights, and a camera that sees all, replace missing ones.
 
-    The tables inside are read one by one, each by its own structure above.
+    The inner tables are read one by one, each by its structure above.
     """
 
     name: str = ""

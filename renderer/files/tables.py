@@ -1,6 +1,6 @@
 """Convert TOML to typed structures, with errors that a user can act on.
 
-An error names the line and column of a syntax error, or the path of a field.
+A syntax error is reported with its line and column, and any other with the path of its field.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from lucida.renderer.system.errors import LucidaError
 
 from .reading import suggestion
 
-MARK = "\ufeff"  # of the byte order, as Windows writes it
+MARK = "\ufeff"  # the byte order mark that Windows writes
 VERSION = 1  # of the formats of scene and view files: their key `lucida`
 
 _KEY_PART = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
@@ -35,7 +35,7 @@ _NAMES = {
 def parse_toml(text: str) -> dict[str, Any]:
     """Return the tables of a TOML text. Raises LucidaError with line and column if it is not TOML.
 
-    A key `lucida` above VERSION is refused here, before fields that this program cannot know.
+    A key `lucida` above VERSION is reported here, before fields that this program cannot know.
     """
     text = text.removeprefix(MARK)
     # The parser takes quadratic time for keys of many parts.
@@ -48,24 +48,26 @@ def parse_toml(text: str) -> dict[str, Any]:
         raise _syntax_error(str(error), text) from None
     except RecursionError:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
-    except ValueError:  # Python's own limit on the digits of a number
+    except ValueError:  # Python's limit on the digits of a number
         raise LucidaError("", "holds a number of too many digits", "shorten it") from None
     check_integers(tables)
     version = tables.pop("lucida", VERSION)
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
-        raise LucidaError("lucida", f"{version!r} is no version", f"give lucida = {VERSION}")
+        raise LucidaError("lucida", f"{version!r} is not a version", f"give lucida = {VERSION}")
     if version > VERSION:
         raise LucidaError(
             "lucida",
-            f"the file is of version {version}, this program reads up to {VERSION}",
+            f"the file has version {version}; this program reads up to {VERSION}",
             "update Lucida, or save the file for the older version",
         )
     return tables
 
 
 def check_integers(tables: Any, remedy: str = "give one of at most 18 digits") -> None:
-    """Raise LucidaError, with its field's path, for an integer of more than 64 bits in tables and
-    lists: TOML has none, and most numbers of this program cannot hold it."""
+    """Raise LucidaError, with the field's path, for an integer of more than 64 bits.
+
+    TOML has none, and most numbers of this program cannot hold it.
+    """
     left: list[tuple[str, Any]] = [("", tables)]
     while left:
         path, value = left.pop()
@@ -106,7 +108,7 @@ def _syntax_error(message: str, text: str) -> LucidaError:
 
 
 def explained(message: str, kind: Any = None, prefix: str = "") -> LucidaError:
-    """Return msgspec's error in this project's words."""
+    """Return msgspec's error in Lucida's words."""
     text, _, path = message.partition(" - at `$")
     path = path.rstrip("`").lstrip(".")
     field = f"{prefix}.{path}" if prefix and path and path[0] != "[" else prefix + path
@@ -119,7 +121,7 @@ def explained(message: str, kind: Any = None, prefix: str = "") -> LucidaError:
         return error.within(field)
     if choice := re.fullmatch(r"Invalid (enum )?value (.*)", text, re.DOTALL):
         choices = [str(c) for k in kinds if get_origin(k) is Literal for c in get_args(k)]
-        if not choice[1]:  # the tag that chooses one of several tables
+        if not choice[1]:  # the tag that selects one of several tables
             tables = _structs(_types_at(kind, path.rpartition(".")[0]))
             choices = [str(table.__struct_config__.tag) for table in tables]
         remedy = suggestion(choice[2].strip("'"), choices)

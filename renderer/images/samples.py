@@ -1,6 +1,4 @@
-"""Supersampling, the same for both renderers: the positions of samples in a pixel, and their
-mean.
-"""
+"""Supersampling for both renderers: the positions of samples in a pixel, and their mean."""
 
 from __future__ import annotations
 

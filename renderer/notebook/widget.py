@@ -1,9 +1,9 @@
 """The live widget: the browser asks for an image, and the kernel answers.
 
-The browser sends what the user did since its last question, and leaves at most two questions
-without an answer. Therefore nothing queues up while a cell runs or an image takes long. An image
-that is not ready soon is asked for again: no question keeps the kernel from running cells. Only the
-tracer has threads.
+The browser sends the user's actions since its last request, and has at most two requests open.
+Therefore nothing queues up while a cell runs or an image takes long. The browser repeats its
+request if the image is not ready soon, so that no request keeps the kernel from running cells. Only
+the tracer has threads.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _camera_from_json(table: dict[str, Any], widget: Explorer) -> Camera:
 
 
 def _pixel_from_json(place: list[int] | None, widget: Explorer) -> Pixel | None:
-    """Return the pixel that a browser sent, likewise."""
+    """Return the pixel that a browser sent; the marked one, with a message, if it is invalid."""
     try:
         return check_pixel(place, widget.size)
     except LucidaError as error:
@@ -142,7 +142,7 @@ class Explorer(anywidget.AnyWidget):
 
     @property
     def frame(self) -> Frame:
-        """The full frame of the present camera, with all channels; traced now if need be."""
+        """The full frame of the present camera, with all channels, traced now if necessary."""
         self._trace(1, None)
         assert self._latest is not None
         return self._latest
@@ -171,7 +171,7 @@ class Explorer(anywidget.AnyWidget):
         """Send an image without a request, because a cell has changed the camera."""
         now = time.monotonic()
         if self._answering or not self._is_shown or now - self._pushed_s < PUSH_S:
-            return  # the browser asks, at the latest when the cell is done
+            return  # the browser will request it, at the latest when the cell ends
         self._pushed_s = now
         self._send_image(True, {})
 
@@ -192,7 +192,7 @@ class Explorer(anywidget.AnyWidget):
                 except (LucidaError, OverflowError) as error:
                     answer["problem"] = str(error)
             self._send_image(question["moving"], answer)
-        except BaseException as error:  # an interrupt too: the browser waits for an answer
+        except BaseException as error:  # even an interrupt, because the browser waits for an answer
             self.send({**answer, "problem": str(error) or repr(error)})
             if not isinstance(error, LucidaError):
                 raise

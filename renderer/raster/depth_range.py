@@ -18,7 +18,7 @@ SIDE = 16  # of the blocks in range.frag
 
 
 class DepthRange:
-    """The range of one image at a time, in a context, which must be current."""
+    """The range of one image at a time, in a context that must be current."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -56,7 +56,7 @@ class DepthRange:
         return self._asked
 
     def numbers(self) -> tuple[float, float] | None:
-        """Return the last range, nearest and farthest; None if nothing was hit, or nothing was
+        """Return the last range, nearest and farthest; None if nothing was hit or
         measured.
 
         Call this a frame later: immediately, it would wait for the GPU.

@@ -34,7 +34,7 @@ FAR_PX = 1e6  # outside every image
 BACK_LIGHT = 0.55  # brightness of a picture seen from behind
 CLOUD_HIDDEN = 0.25  # brightness of a cloud where something is nearer
 TAPS = {False: 4, True: 1}  # by whether it moves: points of the placed picture a side of a pixel
-_THINNEST = 1e-7  # an image plane that is closer to edge-on does not show its picture
+_THINNEST = 1e-7  # a plane closer to edge-on does not show its picture
 
 
 @dataclass(frozen=True)
@@ -165,8 +165,8 @@ class Overlay:
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
         without a picture hides nothing. unit_px: the unit of dashes and edges. number: a value that
         differs whenever the scene's picture differs; None if unknown. cloud: of this size, by the
-        same camera; below the layers. moves: the placed picture may have jagged edges, so that it
-        is drawn sooner.
+        same camera; below the layers. moves: the placed picture may have jagged edges, to be
+        drawn faster.
         """
         gl = self._gl
         drawn, framebuffer = self._targets["shown"].of_size(size)

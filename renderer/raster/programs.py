@@ -14,18 +14,18 @@ from lucida.renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 from .resources import Owner
 from .sources import Constant, link
 
-# The samplers' texture units, the same in all programs. Those of different kinds never share one.
+# The samplers' texture units are the same in all programs. Different kinds never share one.
 SAMPLERS = (
     *("triangle_rows", "spheres", "objects", "lights", "faces", "vertices"),
     *("texels", "textures", "uv", "primitives", "positions"),
 )
 UNITS = {name: unit for unit, name in enumerate(SAMPLERS)}
-# Window depths: of the background, and one between it and the farthest of depth() in camera.glsl.
+# Window depths: the background's, and one between it and depth()'s largest in camera.glsl.
 FARTHEST, BEFORE_FARTHEST = 1.0, 1 - 2**-21
 
 
 class Programs:
-    """The programs of a context, compiled once; some of them once for each kind of scene."""
+    """The programs of a context, each compiled once, or once for each kind of scene."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
@@ -35,7 +35,7 @@ class Programs:
         self.background = self._linked("screen.vert", "background.frag", {"HAS_LENS": False})
 
     def triangles(self, flat: FlatScene, has_lens: bool = False) -> moderngl.Program:
-        """Return the first pass for the scene's triangles. has_lens: in a face."""
+        """Return the first pass for the scene's triangles. has_lens: draws a face of a lens."""
         return self._linked("triangles.vert", "triangles.frag", seeing(flat, has_lens))
 
     def spheres(self, has_lens: bool = False) -> moderngl.Program:
@@ -58,7 +58,7 @@ class Programs:
         features: Mapping[str, Constant],
         window_depth: float = FARTHEST,
     ) -> moderngl.Program:
-        """Return a program whose uniforms that never change are set."""
+        """Return a program after setting its constant uniforms."""
         key = (vertex, fragment, *features.values())
         if key not in self._special:
             program = self._owner.own(link(self._context, vertex, fragment, features))

@@ -1,4 +1,4 @@
-"""GPU resources: creation, ownership, and OpenGL's errors as one line."""
+"""GPU resources: creation, ownership, and OpenGL errors in one line."""
 
 from __future__ import annotations
 
@@ -66,12 +66,12 @@ def check(context: moderngl.Context, doing: str) -> None:
         return
     if error == "GL_OUT_OF_MEMORY":
         raise LucidaError(
-            "OpenGL", f"no memory for {doing}", "choose a smaller image or a smaller model"
+            "OpenGL", f"no memory for {doing}", "select a smaller image or a smaller model"
         )
     if error == "GL_UNKNOWN_ERROR":  # moderngl's word for GL_CONTEXT_LOST
         raise LucidaError(
             "OpenGL",
             f"the context is lost at {doing}",
-            "start the program again; update the graphics driver if that recurs",
+            "start the program again; update the graphics driver if this recurs",
         )
     raise LucidaError("OpenGL", f"{error} at {doing}", "update the graphics driver")

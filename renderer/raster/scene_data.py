@@ -44,8 +44,8 @@ class SceneData:
         self._programs = programs
         self._flat, self._setup = scene
         self._last: RasterView | None = None
-        self._bases: Floats | None = None  # of that camera, see plane_bases()
-        self._margin = 0, 0  # of its image, see _margin_of()
+        self._bases: Floats | None = None  # the camera's, see plane_bases()
+        self._margin = 0, 0  # the image's, see _margin_of()
         # The view of the triangles in the table, the number of its valid rows, and stale ranges.
         self._camera: RasterView | None = None
         self._rows = 0
@@ -125,7 +125,7 @@ class SceneData:
             self._content = [(vertices, "3f4", "vertex"), (objects, "1i4", "object")]
             self._indices = own(context.buffer(flat.faces))
         self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
-        # By name, for the scene's features, which may change when an object is rotated.
+        # Programs by name and by the scene's features, which a rotated object may change.
         self._chosen: dict[tuple[object, ...], moderngl.Program] = {}
 
     def _array(self, name: str, *features: bool) -> moderngl.VertexArray:
@@ -159,8 +159,8 @@ class SceneData:
         """Return the number of pixels by which the viewport extends beyond the image on each side.
 
         GL clips in float32, and the edges made by clipping must be outside the image. Their error
-        is about 2^-24 of a triangle's size: the margin exceeds it even for a vast plain in a narrow
-        view.
+        is about 2^-24 of a triangle's size, which the margin exceeds even for a vast plain in a
+        narrow view.
         """
         largest = self._context.info["GL_MAX_VIEWPORT_DIMS"]
         width, height = (
@@ -219,15 +219,15 @@ class SceneData:
             array.render(moderngl.TRIANGLES, vertices=BOX_VERTICES, instances=spheres)
 
     def clear(self) -> None:
-        """Clear the bound framebuffer: no primitive anywhere."""
+        """Clear the bound framebuffer to no primitive."""
         self._context.enable_only(moderngl.DEPTH_TEST)
         self._cover(self._array_of(self._programs.clear), "1")
 
     def shade(self, primitives: moderngl.Texture, face: Lookup | None = None) -> None:
         """Run the second pass: draw the hit and colour of each pixel into the bound framebuffer.
 
-        Its depth selects the pixels: where the first pass has drawn nothing, no hit is computed.
-        face: only pixels that looked up their primitive there.
+        Its depth selects the pixels: no hit is computed where the first pass has drawn nothing.
+        face: restricts drawing to pixels that looked up their primitive in it.
         """
         self.draw_background()
         if not len(self._flat.materials):
@@ -238,7 +238,7 @@ class SceneData:
         self._cover(array, ">", face)
 
     def draw_background(self) -> None:
-        """Draw the background where the first pass has drawn nothing."""
+        """Draw the background at the pixels where the first pass has drawn nothing."""
         self._context.enable_only(moderngl.DEPTH_TEST)
         self._cover(self._array_of(self._programs.background), "==")
 

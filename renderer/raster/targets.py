@@ -23,7 +23,7 @@ class Textures:
     """The rasterizer's image on the GPU; row 0 of each texture is the image's top row.
 
     color: RGBA32F, linear light. surface: RGBA32F, the normal, and t (infinity if nothing is hit).
-    object, primitive: R32I, -1 if nothing is hit. The rasterizer keeps owning them: its next draw()
+    object, primitive: R32I, -1 if nothing is hit. The rasterizer owns them; its next draw()
     overwrites them, or replaces them if the size changes.
     """
 
@@ -56,7 +56,7 @@ class Targets:
         except moderngl.Error as error:
             self.release()
             problem = f"{size[0]}x{size[1]}: {error}"
-            raise LucidaError("size", problem, "choose a smaller image") from None
+            raise LucidaError("size", problem, "select a smaller image") from None
         except LucidaError:
             self.release()
             raise

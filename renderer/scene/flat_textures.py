@@ -20,7 +20,7 @@ from .metal import packed_metal, sized_alike
 from .model import Mesh, Scene
 from .texture import WRAPS, Texture, packed_opacity, packed_texels
 
-# Texture coordinates are kept within this many texels of 0: beyond, float32 is too coarse.
+# Texture coordinates stay within this many texels of 0, because float32 is too coarse beyond.
 FARTHEST_TEXEL = float(1 << 22)
 
 F32 = NDArray[np.float32]
@@ -40,7 +40,7 @@ def texture_arrays(
 ) -> TextureArrays:
     """Return the arrays of a scene's textures.
 
-    object_vertices: of the scene (FlatScene).
+    object_vertices: the scene's (see FlatScene).
     known: another scene, its object_vertices and its arrays, which are reused if the same images
         are on the same vertices.
 
@@ -80,7 +80,7 @@ def texture_arrays(
 
 
 class _Images:
-    """The images of a scene, one after another, each once. parts: their texels."""
+    """The images of a scene, each stored once, one after another. parts: their texels."""
 
     def __init__(self) -> None:
         self.parts: list[I32] = []
@@ -94,7 +94,7 @@ class _Images:
         made: Callable[[], I32 | tuple[I32, ...]],
     ) -> list[int]:
         """Return the first texels of images, one or more. key: everything that they depend on
-        except the wrap. made: returns them, packed. Raises LucidaError if there are too many.
+        except the wrap. made: returns the packed texels. Raises LucidaError if there are too many.
         """
         key = *key, wrap
         if key not in self._places:
@@ -117,8 +117,8 @@ def _wraps(image: Texture) -> int:
 
 
 def on_sphere(texture: Texture, size: tuple[int, int]) -> tuple[float, float, float, float]:
-    """Return (a, b, c, d), with which (a u + b, c v + d) are a sphere's texel coordinates at u and
-    v from 0 to 1; they are near 0 if the image repeats. size: (width, height).
+    """Return (a, b, c, d) such that (a u + b, c v + d) are a sphere's texel coordinates at u and v
+    from 0 to 1. They are near 0 if the image repeats. size: (width, height).
     """
     (a, _, b), (_, c, d) = texture.in_texels(size)
     b -= _shift(texture, size, 0, b + a / 2)
@@ -135,8 +135,8 @@ def _shift(texture: Texture, size: tuple[int, int], axis: int, middle: float) ->
 
 
 def _with_border(texels: I32, wrap: tuple[str, str]) -> I32:
-    """Return texels (height, width) as they are in FlatScene: with a copy of the texels that follow
-    the last column and the last row, so that four neighbours are two pairs in memory.
+    """Return texels (height, width) as in FlatScene: with a copy of the texels that follow the last
+    column and the last row, so that four neighbours are two pairs in memory.
     """
     height, width = texels.shape
     around = np.empty((height + 1, width + 1), np.int32)
@@ -159,7 +159,7 @@ def _key(scene: Scene, object_vertices: I32) -> list[tuple[object, ...]]:
 
 
 def _in_texels(uv: F32, texture: Texture, size: tuple[int, int]) -> F32:
-    """Return vertices' coordinates (n, 2) in texels, near 0 where the image repeats."""
+    """Return vertices' coordinates (n, 2) in texels, near 0 if the image repeats."""
     place = texture.in_texels(size)
     places = uv.astype(np.float64) @ place[:, :2].T + place[:, 2]
     for axis in range(2):

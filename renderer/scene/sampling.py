@@ -1,6 +1,6 @@
 """Texture lookups, holes and unseen backs at many hits at once, in float64.
 
-For code that computes on arrays of rays, outside the renderers.
+These functions serve code outside the renderers that computes on arrays of rays.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .flat import CHECKER_DIFFUSE, FlatScene
 F64 = NDArray[np.float64]
 Ints = NDArray[np.integer]
 _MOST = (1 << TEXEL_BITS) - 1
-_LATTICE = 8  # samples that a side of a rectangle on an image is cut into
+_LATTICE = 8  # samples along a side of a rectangle on an image
 
 
 def on_triangles(flat: FlatScene, triangles: Ints, weights: F64) -> F64:
@@ -64,12 +64,12 @@ def opacity(flat: FlatScene, objects: Ints, places: F64) -> F64:
 def are_passed(
     flat: FlatScene, triangles: Ints, weights: F64, direction: F64, is_light: bool = False
 ) -> NDArray[np.bool_]:
-    """Return which of some triangles (n,) a ray passes where it meets them: a back that is not
-    seen, or a hole.
+    """Return a mask of the triangles (n,) that a ray passes at its hit: at an invisible back, or
+    through a hole.
 
     weights (n, 3): barycentrics.
     direction (3,): the ray's, in the world.
-    is_light: backs stop light.
+    is_light: the ray is light, which backs stop.
     """
     owner = flat.face_object[triangles]
     passed = (flat.single_sided[owner] > 0) & (not is_light)
@@ -112,7 +112,7 @@ def between(
     sample: Callable[[FlatScene, Ints, F64], F64], flat: FlatScene, objects: Ints, places: F64
 ) -> tuple[F64, F64]:
     """Return the least and the largest value of sampled(), gloss() or opacity() at texel
-    coordinates (k, n, 2), and between them unless they are within one texel.
+    coordinates (k, n, 2), and also between them if they are more than one texel apart.
     """
     found = np.stack([sample(flat, objects, place) for place in places])
     least, most = found.min(axis=0), found.max(axis=0)
@@ -120,7 +120,7 @@ def between(
     wide = (size > 1 / _LATTICE).any(axis=1)
     for step in itertools.product(np.linspace(0, 1, _LATTICE + 1), repeat=2) if wide.any() else ():
         place = low[wide] + size[wide] * step
-        # Between the middles of texels there are no extremes.
+        # Extremes are only at the middles of texels.
         for at in (place, np.clip(np.floor(place) + 0.5, low[wide], low[wide] + size[wide])):
             more = sample(flat, objects[wide], at)
             least[wide] = np.minimum(least[wide], more)

@@ -1,10 +1,10 @@
-"""A texture: an image on a surface, its coordinates, and the form in which renderers get it.
+"""A texture: an image on a surface, its coordinates, and its packed form for renderers.
 
-Coordinates (u, v): u to the right, v up; (0, 0) is the image's lower left corner and (1, 1) its
-upper right one. Beyond these, the image is repeated (repeat), mirrored and repeated in turn
-(mirror), or continued by the nearest texel of its border (clamp). Light is interpolated linearly
-between the middles of four texels, in both directions, and always at full resolution, however many
-texels a pixel covers.
+In coordinates (u, v), u points to the right and v up; (0, 0) is the image's lower left corner and
+(1, 1) its upper right one. Beyond these, the image is repeated (repeat), mirrored and repeated in
+turn (mirror), or continued by the nearest texel of its border (clamp). Light is interpolated
+linearly between the middles of four texels, in both directions, and always at full resolution,
+however many texels a pixel covers.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ OPACITY_STEPS = 1 << 20
 
 
 def is_final(value: object) -> bool:
-    """Return True for an array to which nobody can write, and which can therefore be shared."""
+    """Return True for an array that cannot be written, and can therefore be shared."""
     while isinstance(value, np.ndarray) and not value.flags.writeable:
         if value.flags.owndata:
             return True
@@ -43,7 +43,7 @@ class Texture:
     """An image on a surface. texels: uint8 (height, width, 3), sRGB, row 0 at the top; or (height,
     width, 4) with opacity, which only cutouts use; read-only.
 
-    wrap: along u and v, of WRAPS. scale, offset, rotate_deg: the place that is looked up is
+    wrap: along u and v, of WRAPS. scale, offset, rotate_deg: the lookup is at
     scale * (u, v), turned counter-clockwise by rotate_deg, + offset. file: the image file; None for
     an image that was made, or is inside another file.
     """
@@ -85,7 +85,7 @@ class Texture:
 
     @property
     def place(self) -> NDArray[np.float64]:
-        """Return the matrix (2, 3) from (u, v, 1) to the place that is looked up."""
+        """Return the matrix (2, 3) from (u, v, 1) to the coordinates of the lookup."""
         turn = math.radians(self.rotate_deg % 360.0)
         cosine, sine = math.cos(turn), math.sin(turn)
         if self.rotate_deg % 90.0 == 0.0:
@@ -111,7 +111,7 @@ def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
     """Return texels in the renderers' form, one number each, (height, width): red in the lowest
     TEXEL_BITS, then green and blue, each the square root of linear light.
 
-    A square root is close to the curve of sRGB, and one multiplication undoes it. With 10 bits, the
+    A square root is close to the sRGB curve, and one multiplication inverts it. With 10 bits, the
     error is less than a fifth of an 8-bit step of sRGB.
     """
     return _packed(
@@ -120,7 +120,7 @@ def packed_texels(texels: NDArray[np.uint8]) -> NDArray[np.int32]:
 
 
 def packed_light(light: NDArray[np.floating]) -> NDArray[np.int32]:
-    """Return the same of linear light, (height, width, 3), 0 to 1."""
+    """Return packed_texels() of linear light, (height, width, 3), 0 to 1."""
     return _packed(_roots(np.clip(light, 0, 1)))
 
 

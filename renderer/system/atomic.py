@@ -21,7 +21,7 @@ _DAY_S = 86_400
 
 
 def check_writable(path: str | Path) -> Path:
-    """Return the file that writing to `path` would replace, links followed.
+    """Return the file that writing to `path` would replace, after following links.
 
     Raises LucidaError if it cannot be written: its folder does not exist or is not writable, or
     `path` is not an ordinary file.
@@ -46,8 +46,8 @@ def check_writable(path: str | Path) -> Path:
 
 
 def file_stem(name: str) -> str:
-    """Return a file's name, without ending, for the name of a scene: letters with their combining
-    marks, digits, spaces and _; "-" for any other character.
+    """Return a scene's name as a file name without ending. Letters with their combining marks,
+    digits, spaces and _ stay; "-" replaces any other character.
     """
     return "".join(
         c if c.isalnum() or c in " _" or unicodedata.category(c)[0] == "M" else "-" for c in name

@@ -1,4 +1,4 @@
-"""Cancel the reading of a scene: between two parts of it, a check can raise an exception."""
+"""Cancel the reading of a scene by a check that is called between its parts and may raise."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ T = TypeVar("T")
 
 
 class CancelledError(Exception):
-    """Nobody is waiting for the result any more."""
+    """The result is no longer needed."""
 
 
 class Cancellation:
@@ -45,7 +45,7 @@ def during(variable: ContextVar[T], value: T) -> Iterator[T]:
 
 
 def cancelled_by(check: Callable[[], None]) -> AbstractContextManager[object]:
-    """Call `check` again and again during the block, on this thread. It raises to cancel."""
+    """Call `check` repeatedly during the block, on this thread. It raises to cancel."""
     return during(_check, check)
 
 

@@ -16,7 +16,8 @@ class Memo(Generic[*Parts, T]):
 
     function: must read nothing but its arguments, so that the key cannot lack an input. It may have
     an effect, such as drawing, on one of them. Bound methods and closures are rejected. most: the
-    number of values to keep, the most recently used. More than one only if there is no such effect:
+    number of values to keep, the most recently used. It may exceed 1 only if there is no such
+    effect:
     drawing for one key may overwrite the drawing for another. count: the number of calls of the
     function.
 
@@ -44,7 +45,7 @@ class Memo(Generic[*Parts, T]):
         return value
 
     def forget(self) -> None:
-        """Drop all values: the next call computes."""
+        """Drop all values, so that the next call computes."""
         self._known.clear()
 
 

@@ -1,8 +1,8 @@
-"""The tracer's own functions for one ray, run by Python itself: no compilation, any numbers.
+"""The tracer's own functions for one ray, run by Python itself, without compilation.
 
-For questions about a single pixel: they compute the shading model and the intersections of
-renderer/trace, line by line, in float64. The tracer's decorators leave the functions of its kernels
-to Python as well. Its modules, and with them its compiler, are loaded on first use of a function.
+They compute the shading model and the intersections of renderer/trace for a single pixel, line by
+line, in float64. The tracer's decorators keep the Python versions of its kernels' functions. Its
+modules, and with them the compiler, are loaded on first use of a function.
 """
 
 from __future__ import annotations
@@ -42,6 +42,6 @@ def __getattr__(name: str) -> Callable[..., Any]:
 
 
 def load() -> None:
-    """Load everything now, in this thread: it takes a fraction of a second."""
+    """Load everything now, on this thread, which takes a fraction of a second."""
     for name in _HOME:
         __getattr__(name)

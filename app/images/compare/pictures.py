@@ -9,16 +9,16 @@ from lucida.renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING
 
 Bytes = NDArray[np.uint8]
 RIM = 250  # a label: the dark border of a mark
-MOST_ENLARGED = 0.002  # of the pixels; a cause that has more is not enlarged
-LARGER_EVERY = 400  # pixels of the image's shorter side: there a mark is one pixel larger each way
+MOST_ENLARGED = 0.002  # part of all pixels; a cause with more is not enlarged
+LARGER_EVERY = 400  # pixels of the shorter side per pixel of a mark's enlargement
 
 
 def marked_picture(labels: Bytes, is_large: bool) -> Bytes:
-    """Return the pixels that differ in the colours of their causes, uint8 (H, W, 4); the others are
+    """Return the differing pixels in the colours of their causes, uint8 (H, W, 4), others
     transparent.
 
-    labels: those of renderer/compare/raster_and_ray.py. is_large: the pixels are large enough to be
-    seen; otherwise the marks are enlarged.
+    labels: see renderer/compare/raster_and_ray.py. is_large: the pixels are large enough to see;
+    otherwise the marks are enlarged.
     """
     if not is_large:
         labels = enlarged(labels)
@@ -40,7 +40,7 @@ def enlarged(labels: Bytes) -> Bytes:
     i, j, found = i[few], j[few], found[few]
     near = 1 + min(labels.shape) // LARGER_EVERY  # reach of the colour; the border's is one more
     edge, bad = near + 1, found >= SHADING
-    grown = np.pad(labels, edge)  # nothing wraps
+    grown = np.pad(labels, edge)  # so that nothing wraps around
     for chosen, inset in ((slice(None), 0), (~bad, 1), (bad, 1)):
         for di in range(inset, 2 * edge + 1 - inset):
             for dj in range(inset, 2 * edge + 1 - inset):

@@ -1,4 +1,4 @@
-"""Boxes to type into: the resolution of both images, and a pixel that the mark goes to."""
+"""Entry boxes for the resolution of both images, and for a pixel to mark."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ def ask_resolution(host: Host) -> None:
         host.change(with_resolution(host.state, parsed_size(texts[0])))
 
     fields = {"width x height": size_text(host.state.images.resolution or host.renderers.size)}
-    rule = "16 x 9 to 4096 x 2160 and beyond; 4 x 3 as on the blackboard"
+    rule = "16 x 9 to 4096 x 2160 and beyond; 4 x 3, as on the blackboard"
     host.box = EntryBox("Resolution of both images", fields, "Draw", rule, enter, 10.0)
 
 
 def ask_pixel(host: Host) -> None:
-    """Open the box for a pixel, with the marked one, or the one in the middle."""
+    """Open the box for a pixel; it holds the marked pixel, or the middle one."""
     size, indexing = host.renderers.size, host.options.indexing
     if not min(size):
         return

@@ -1,4 +1,4 @@
-"""The mouse moves a camera: by a drag or the wheel, over the images and over the outside view."""
+"""Camera motion by the mouse: a drag or the wheel, over the images or the outside view."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class CameraDrag:
-    """The start of a drag, and what it has done.
+    """The start of a drag, and the camera that it has made.
 
     kind: "orbit", "pan", "look", or another one that moves no camera. start: the mouse, in screen
     coordinates. point: on the image plane under it. pivot, parameter: the world point that it
@@ -36,7 +36,7 @@ class CameraDrag:
     latest: Camera
 
     def moved(self, camera: Camera, mouse: ImVec2, point: Point, angle: float) -> Camera:
-        """Return the camera after the drag so far; the current one if it would be too far out.
+        """Return the camera after the drag so far, or the current one if it would leave its range.
 
         point: on the image plane under the mouse. angle: of one unit of dragging.
         """
@@ -51,7 +51,7 @@ class CameraDrag:
 
 
 def drag_kind() -> str:
-    """Return what the buttons and keys ask for at the beginning of a drag."""
+    """Return the kind of drag that the pressed buttons and keys begin."""
     io = imgui.get_io()
     if not imgui.is_mouse_down(imgui.MouseButton_.left) or io.key_shift:
         return "pan"

@@ -1,4 +1,4 @@
-"""The note over an image that is black or shows nothing: why, and a button that helps."""
+"""The note over an image that is black or shows nothing: the reason, and a button that helps."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def dark_note(text: str, remedy: str, screen: Screen) -> bool:
     imgui.push_style_color(imgui.Col_.child_bg, BOX)
     imgui.push_style_var(imgui.StyleVar_.window_padding, padding)
     flags = imgui.ChildFlags_.always_use_window_padding | imgui.ChildFlags_.nav_flattened
-    # A scrollbar that one frame needs would narrow the text, which needs it from then on.
+    # A scrollbar needed in one frame would narrow the text and thereby stay necessary.
     imgui.begin_child("##why", size, flags, imgui.WindowFlags_.no_scrollbar)
     imgui.pop_style_var()
     imgui.pop_style_color()

@@ -1,7 +1,4 @@
-"""The square of one pixel, enlarged: what the camera sees in it, and the samples taken there.
-
-Also the colour at the pointer, as a function of its place.
-"""
+"""The enlarged square of one pixel: the camera's view of it, and the samples taken there."""
 
 from __future__ import annotations
 
@@ -21,8 +18,8 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.images.display import to_srgb8
 from lucida.renderer.images.samples import offsets
 
-CELLS = 32  # of the enlarged square, a side
-AROUND = 0.25  # of the pixel's neighbours, in pixels
+CELLS = 32  # a side of the enlarged square
+AROUND = 0.25  # width of the visible neighbourhood, in pixels
 PART = 0.46  # of the image's height, for the inset
 DRAWN = "footprint"
 
@@ -31,8 +28,10 @@ Colors = NDArray[np.uint8]
 
 @dataclass(frozen=True, eq=False)
 class Footprint:
-    """A pixel's square. fine: with a margin, (CELLS, CELLS, 3). samples: (k, k, 3), those in the
-    cells of a k x k grid. mean: their mean in linear light. All but their places in sRGB.
+    """A pixel's square, in sRGB.
+
+    fine: with a margin, (CELLS, CELLS, 3). samples: (k, k, 3), those in the cells of a k x k grid.
+    mean: their mean in linear light.
     """
 
     fine: Colors

@@ -1,4 +1,4 @@
-"""The mouse over an image: it moves the camera, marks a pixel, zooms into the pixels.
+"""The mouse over an image: it moves the camera, marks a pixel, or magnifies the pixels.
 
 navigation.py computes the motions of the camera, placement.py those of the magnified image.
 
@@ -30,10 +30,10 @@ from lucida.renderer.camera.checks import Vector
 
 from .camera_drag import HALF_TURN, CameraDrag, drag_kind
 
-STILL_PX = 3.0  # a mouse that has moved less is still where it was
+STILL_PX = 3.0  # a mouse that has moved less counts as unmoved
 
-# Called for a click on a pixel, with True for the second of two. Returns True if somebody else
-# takes the click.
+# Called for a click on a pixel, with True for the second of two. Returns True if other
+# code handles the click.
 Click = Callable[[Pixel, bool], bool]
 
 
@@ -42,8 +42,8 @@ class Grab(CameraDrag):
     """A drag over an image. kind: also "slide", for the magnified image.
 
     view: its name. shown: the camera as drawn. pixel, part: what was under the mouse, as a pixel
-    and in parts of the image. moved_away: the mouse has moved; otherwise it is a click. taken: the
-    click is for someone else.
+    and in parts of the image. moved_away: the mouse has moved; otherwise it is a click. taken:
+    other code handles the click.
     """
 
     view: str
@@ -58,7 +58,7 @@ class Grab(CameraDrag):
 class Zoom:
     """The last zoom by the wheel: a world point, the camera and the mouse position then.
 
-    While the wheel turns, no finished image shows the point; it is still the same.
+    No finished image shows the point while the wheel turns, so it is kept.
     """
 
     view: str
@@ -73,9 +73,9 @@ class ImageMouse:
     def __init__(self) -> None:
         self.grab: Grab | None = None
         self._zoom: Zoom | None = None
-        # Of the last magnification: the mouse in screen coordinates, and the place of the image
-        # under it. A small image stays in the middle of its window, so that the place is not always
-        # under the mouse in between; in the end it is.
+        # The mouse at the last magnification, in screen coordinates, and the point of the image
+        # under it. A small image stays in the middle of its window, so the point may leave the
+        # mouse in between; it returns when the image is large enough.
         self._magnified: tuple[tuple[float, float], tuple[float, float]] | None = None
 
     def drag(self, host: Host, view: str, screen: Screen, click: Click) -> AppState:
@@ -113,7 +113,7 @@ class ImageMouse:
         return state.with_camera(camera)
 
     def magnify(self, state: AppState, steps: float, screen: Screen) -> AppState:
-        """Zoom into the pixels at the mouse, by Ctrl and the wheel."""
+        """Magnify the pixels at the mouse (Ctrl + wheel)."""
         mouse, placement = imgui.get_io().mouse_pos, screen.placement
         at, place = (mouse.x, mouse.y), screen.pane_px(mouse)
         if self._magnified is None or math.dist(self._magnified[0], at) >= STILL_PX:

@@ -1,7 +1,7 @@
 """Lines between magnified pixels, and values and names in them.
 
-Each is drawn from a certain size on, and thinned out where it would not be legible. Asks only for
-the values of visible pixels.
+Each is drawn from a certain size on, and thinned out if it would not be legible. Only the values of
+visible pixels are requested.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from lucida.renderer.raster.targets import Region
 
 from .rulers import ADVANCE
 
-MOST_VALUES = 1200  # more are thinned out: nobody reads them, and a frame would take too long
+MOST_VALUES = 1200  # more are thinned out, since they are illegible and slow
 MOST_TEXT = 64.0
-# Of the fixed-width font, in its size. Digits have no descenders: their lines may be close.
+# Relative to the fixed-width font's size. Lines may be close, since digits have no descenders.
 DIGITS_TOP, DIGITS_HIGH = 0.22, 0.61
 LEADING = 0.76
-FILLED = 0.84  # of a pixel's height, by its lines
+FILLED = 0.84  # part of a pixel's height that its lines fill
 
 Values = Callable[[AppState, str, Region], NDArray | None]  # of a channel's pixels
 
@@ -38,7 +38,7 @@ def draw_pixel_grid(
     depths: Depths,
     fonts: theme.Fonts,
 ) -> None:
-    """Draw everything that the magnification leaves room for."""
+    """Draw everything for which the magnification leaves space."""
     side_px = min(screen.placement.unit)
     if side_px < RULED_FROM:
         return
@@ -50,8 +50,9 @@ def draw_pixel_grid(
 
 
 def text_size(width: float, height: float, letters: int, lines: int) -> float:
-    """Return the size of the text in a pixel of that width and height. letters: of its longest
-    line.
+    """Return the size of the text in a pixel of that width and height.
+
+    letters: the number of characters in the longest line.
     """
     return min(width / ((letters + 0.8) * ADVANCE), FILLED * height / _high(lines), MOST_TEXT)
 
@@ -67,7 +68,7 @@ def _lines(draw: imgui.ImDrawList, screen: Screen) -> None:
     low, high = screen.visible
     top, left, bottom, right = screen.placement.visible_pixels
     width = 1 / screen.scale
-    # Gray is seen on black and on white.
+    # Gray is visible on black and on white.
     color = theme.u32(theme.rgb("#808080", 0.55))
     for column in range(max(left, 1), right):
         x = screen.point(0, column).x
@@ -85,7 +86,7 @@ def _values(
     depths: Depths,
     fonts: theme.Fonts,
 ) -> None:
-    """Draw each pixel's value if it can be read, and its row and column if there is room."""
+    """Draw each pixel's value if it can be read, and its row and column if there is space."""
     options, (width, height) = state.images, screen.cell
     mono = fonts.mono or imgui.get_font()
     region = screen.placement.visible_pixels

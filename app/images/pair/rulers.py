@@ -1,7 +1,7 @@
 """The rulers of an image whose pixels are magnified: the numbers of its columns and rows.
 
-They are in a margin that the image leaves (images/placement.py), never over pixels. Both have the
-same step.
+They are drawn in the image's margin (images/placement.py), never over pixels. Both have the same
+step.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from lucida.app.state.options.shared import ImageOptions
 from lucida.app.ui import theme
 from lucida.app.ui.theme import framebuffer_scale
 
-ADVANCE = 0.5  # of the fixed-width font, in its size
+ADVANCE = 0.5  # width of a fixed-width character, over the font's size
 GAP = 3.0  # between numbers and image
-MOST_NUMBERED = 12  # a side of an image whose pixels all have numbers in a lecture
-USUAL_DIGITS = 4  # of an image that follows its window
+MOST_NUMBERED = 12  # longest side of an image whose pixels all have numbers in a lecture
+USUAL_DIGITS = 4  # of pixel numbers, in an image that follows its window
 
 
 def ruler_sizes(options: ImageOptions) -> tuple[int, int]:
@@ -32,7 +32,7 @@ def ruler_sizes(options: ImageOptions) -> tuple[int, int]:
 
 
 def thinning(cell: float, needed: float) -> int:
-    """Return the step between pixels at which a text has room: 1, 2, 5, 10, 20 ..."""
+    """Return the step between pixels that leaves space for a text: 1, 2, 5, 10, 20 ..."""
     factor = 1
     while True:
         for step in (1, 2, 5):
@@ -55,8 +55,8 @@ def draw_rulers(
 ) -> None:
     """Draw columns above the image and rows at its left, if it leaves a margin.
 
-    has_tools: as Host's. Without them, larger images than MOST_NUMBERED have only the first, the
-    last and the marked pixel numbered.
+    has_tools: see Host. Without tools, images larger than MOST_NUMBERED number only the first, the
+    last and the marked pixel.
     """
     if not any(screen.placement.margin):
         return
@@ -80,7 +80,7 @@ def draw_rulers(
         draw.add_rect_filled(corner, far, theme.u32(theme.BACKGROUND))
 
     def number(text: str, at: ImVec2, chosen: bool) -> None:
-        if chosen:  # the mark's yellow is legible on dark only, and there in both themes
+        if chosen:  # the mark's yellow is legible only on a dark background
             far = ImVec2(at.x + digit * len(text) + 2, at.y + size)
             draw.add_rect_filled(ImVec2(at.x - 2, at.y), far, theme.u32(theme.MARK), 2.0)
         color = theme.rgb("#000000") if chosen else theme.TEXT

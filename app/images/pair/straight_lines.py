@@ -17,9 +17,9 @@ from lucida.renderer.camera.image_plane import Size
 
 SAMPLES = 49  # points of a line
 WANTED = 5  # lines from the middle of the image to its side
-FINEST, COARSEST = 1 / 64, 1 / 4  # from one line to the next, in slopes
+FINEST, COARSEST = 1 / 64, 1 / 4  # step from one line to the next, as a slope
 WIDEST_DEG = 170.0
-NARROW = 0.6  # slope of the image's sides up to which only the cube's front is in the image
+NARROW = 0.6  # slope of the image's sides up to which it shows only the cube's front
 
 Floats = NDArray[np.float64]
 Point = ImVec2 | tuple[int | float, int | float] | list[int | float]  # as ImGui takes it
@@ -42,8 +42,9 @@ def _placed_grid(
 
 
 def grid(camera: Camera, size: Size) -> Curves:
-    """Return the visible parts of a grid of straight lines on a cube around the eye, whose front
-    faces the camera. Of a narrow camera, only the front.
+    """Return the visible parts of a grid of straight lines on a cube around the eye.
+
+    The cube's front faces the camera; a narrow camera has only the front.
 
     camera: at the origin, with the world's axes.
     """
@@ -52,7 +53,7 @@ def grid(camera: Camera, size: Size) -> Curves:
     step = min(max(2.0 ** round(math.log2(slope / WANTED)), FINEST), COARSEST)
     reach = math.ceil(1.6 * slope / step) * step if slope < NARROW else 1.0
     places, along = np.arange(-reach, reach + step / 2, step), np.linspace(-reach, reach, SAMPLES)
-    along = np.insert(along, SAMPLES // 2 + 1, 1e-9)  # 0, and beside it: both sides of a seam
+    along = np.insert(along, SAMPLES // 2 + 1, 1e-9)  # both sides of a seam
     place, way = np.meshgrid(places, along, indexing="ij")
     front = np.concatenate(
         [
@@ -67,14 +68,14 @@ def grid(camera: Camera, size: Size) -> Curves:
 
 
 def curves(camera: Camera, lines: Floats, size: Size) -> Curves:
-    """Return the visible parts of lines through points (m, n, 3): they are broken outside of the
-    lens, and at a panorama's seam.
+    """Return the visible parts of lines through points (m, n, 3), which are broken outside the lens
+    and at a panorama's seam.
     """
     row, column, _ = camera.project(lines, size)
     left, right, bottom, top = camera.viewport
-    # The length of one radian: more between two points of a line is a jump.
+    # A line jumps if two of its points are farther apart than one radian.
     most = camera.distance * min(size[0] / (right - left), size[1] / (top - bottom))
-    shown = np.zeros((len(lines), lines.shape[1] + 1), bool)  # from the point before to this one
+    shown = np.zeros((len(lines), lines.shape[1] + 1), bool)  # from the previous point to this one
     with np.errstate(invalid="ignore"):
         shown[:, 1:-1] = np.hypot(np.diff(row), np.diff(column)) < most
         for place, count in ((row, size[1]), (column, size[0])):

@@ -1,4 +1,4 @@
-"""Parallel lines of the world, drawn over an image as far as they reach."""
+"""Parallel lines of the world, drawn over an image up to their vanishing point."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ Floats = NDArray[np.float64]
 def ends(camera: Camera, points: Sequence[Sequence[float]], along: Sequence[float]) -> Floats:
     """Return the visible part of each line, its two ends in the world, (n, 2, 3).
 
-    In perspective a line begins before the eye. Its other end is so far away that it is in the
-    vanishing point, unless the line is parallel to the image plane.
+    In perspective, a line begins in front of the eye. Its other end is so far away that it is in
+    the vanishing point, unless the line is parallel to the image plane.
     """
     through, direction = np.asarray(points, float).reshape(-1, 3), np.asarray(along, float)
     first = np.full(len(through), -LENGTH)

@@ -1,8 +1,9 @@
 """The place of a photograph in the images. Pure.
 
 A photograph of the viewport's shape fills the camera's own viewport: its left edge is the
-viewport's left, its upper edge the top. Another one has bars on two sides. If a view is fitted to
-the window, its images show more than the viewport, and the photograph is a part of them.
+viewport's left edge, and its upper edge the viewport's top. A photograph of another shape has bars
+on two sides. If a view is fitted to the window, its images show more than the viewport, and the
+photograph covers a part of them.
 """
 
 from __future__ import annotations
@@ -52,16 +53,18 @@ def covered(camera: Camera, drawn: Camera) -> Parts:
 
 
 def letterboxed(parts: Parts, shape: Size, own: Size) -> Parts:
-    """Return the part of `parts`, those of the viewport, that a photograph fills without being
-    stretched: all of it if the shapes agree, otherwise with bars on two sides.
+    """Return the part of the viewport that a photograph fills without being stretched.
 
-    shape: (width, height) of the viewport. own: of the photograph; (0, 0) if unknown.
+    This is all of it if the shapes agree; otherwise there are bars on two sides.
+
+    parts: the viewport's part of the image. shape: (width, height) of the viewport. own: of the
+    photograph; (0, 0) if unknown.
     """
     if not min(own):
         return parts
     width, height = shape
     ratio = own[0] * height / (own[1] * width)
-    if abs(ratio - 1) <= SAME_SHAPE + 1 / min(*own, *shape):  # a pixel is rounding
+    if abs(ratio - 1) <= SAME_SHAPE + 1 / min(*own, *shape):  # a pixel's difference is rounding
         return parts
     across, down = min(1.0, ratio), min(1.0, 1 / ratio)
     x, y = (parts[0] + parts[2]) / 2, (parts[1] + parts[3]) / 2

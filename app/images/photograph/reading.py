@@ -1,7 +1,7 @@
-"""Files of photographs: known by their names, read for display, no larger than needed.
+"""Photograph files: recognised by their names, and decoded for display at the size needed.
 
 A photograph is display values (sRGB), upright, as its EXIF orientation says. Transparent parts stay
-so, and show the image.
+transparent, and show the image.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 PHOTO_ENDINGS = (".jpg", ".jpeg", ".png", ".webp", ".tif", ".tiff")
 ORIENTATION = 0x0112  # of EXIF
-UNREADABLE = "is no picture that can be read"
+UNREADABLE = "is not a readable picture"
 REMEDY = "give a JPEG, PNG, WebP or TIFF file"
 
 Size = tuple[int, int]  # (width, height)
@@ -53,8 +53,8 @@ def found_photograph(source: str) -> str:
 
 
 def decoded(path: Path, wanted: Size) -> DecodedPhotograph:
-    """Return a file's picture with the wanted number of pixels, (width, height), or with its own if
-    that is smaller. Each pixel is the mean of the area that it covers. Raises LucidaError.
+    """Return a file's picture with the wanted number of pixels, (width, height), or with its own
+    size if that is smaller. Each pixel is the mean of the area that it covers. Raises LucidaError.
     """
     from PIL import Image
 
@@ -78,7 +78,7 @@ def _decoded(opened: Picture, wanted: Size) -> DecodedPhotograph:
 
     is_lying = opened.getexif().get(ORIENTATION, 1) >= 5  # rows become columns
     own = opened.size[::-1] if is_lying else opened.size
-    opened.draft("RGB", wanted[::-1] if is_lying else wanted)  # decodes no more than needed
+    opened.draft("RGB", wanted[::-1] if is_lying else wanted)  # decode no more pixels than needed
     if opened.width * opened.height > LARGEST_PIXELS:
         raise _too_large()
     picture = _eight_bits(ImageOps.exif_transpose(opened))
@@ -92,11 +92,11 @@ def _eight_bits(opened: Picture) -> Picture:
     """Return the picture in 8 bits a channel, with alpha if it has any."""
     from PIL import Image
 
-    if opened.mode.startswith("I"):  # 16 bits of gray, whatever they are kept in
+    if opened.mode.startswith("I"):  # 16 bits of gray, stored in 16 or 32 bits
         gray = np.clip(np.asarray(opened).astype(np.int64) >> 8, 0, 255)
         return Image.fromarray(gray.astype(np.uint8))
     if opened.mode == "F":
-        raise LucidaError("", "has numbers without a largest one for pixels", REMEDY)
+        raise LucidaError("", "has pixel values without a known maximum", REMEDY)
     has_alpha = "transparency" in opened.info or opened.mode in ("RGBA", "LA", "PA", "RGBa", "La")
     return opened.convert("RGBA" if has_alpha else "RGB")
 

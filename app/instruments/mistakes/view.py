@@ -1,4 +1,4 @@
-"""The mistakes laboratory: wrong lines, switched on one by one, and the pictures that they make."""
+"""The mistakes laboratory: wrong lines that can be switched on, and the pictures that they make."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ class MistakesView(Instrument):
             wrapped(problem, theme.ERROR)
         room = imgui.get_content_region_avail()
         if imgui.begin_child("page", room, imgui.ChildFlags_.nav_flattened):
-            # Always leave room for the scrollbar: otherwise it could appear and disappear in turn.
+            # Always leave space for the scrollbar; otherwise it could flicker.
             width = room.x - imgui.get_style().scrollbar_size
             height = max(room.y, LEAST_EM * imgui.get_font_size())
             try:
@@ -116,7 +116,7 @@ class MistakesView(Instrument):
             follow(button_width("Undo all mistakes"))
             if imgui.button("Undo all mistakes"):
                 changed = replace(changed, chosen=())
-            imgui.set_item_tooltip("every line correct again")
+            imgui.set_item_tooltip("make every line correct again")
         if changed != options:
             host.change(host.state.with_options(changed))
 

@@ -1,6 +1,6 @@
 """The list of a scene's objects and lights: the Add menu, and the rows.
 
-Selecting is no undo step. Only visible rows are drawn.
+Selecting does not add an undo step. Only visible rows are drawn.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .actions import ADDING, edit
 from .choosing import choose, choose_also, chosen, rows_of
 
 EMPTY = "The scene has no objects. Add one, or drop a model here."
-READ_ONLY = "This scene was made in Python, from meshes: it cannot be changed here."
+READ_ONLY = "This scene was made from meshes in Python and cannot be changed here."
 SHOWN = "shown by both renderers"
 KIND_EM = 5.0
 
@@ -32,7 +32,7 @@ KIND_EM = 5.0
 def outliner_panel(host: Host, seen: Item | None) -> Item | None:
     """Draw the list into the current window. Return the item that it has scrolled to.
 
-    seen: that of the last frame.
+    seen: the previous frame's result.
     """
     rows = rows_of(host.state.scene)
     _add_menu(host)
@@ -42,7 +42,7 @@ def outliner_panel(host: Host, seen: Item | None) -> Item | None:
         imgui.text_wrapped(EMPTY)
     flags = imgui.TableFlags_.row_bg | imgui.TableFlags_.no_pad_outer_x
     flags |= imgui.TableFlags_.sizing_fixed_fit | imgui.TableFlags_.no_saved_settings
-    # A table that scrolls by itself is a window that Tab does not go into.
+    # A scrolling table would be a window of its own, which Tab does not enter.
     imgui.begin_child("list", (0, 0), imgui.ChildFlags_.nav_flattened)
     if rows and imgui.begin_table("items", 3, int(flags)):
         imgui.table_setup_column("shown", 0, imgui.get_frame_height())

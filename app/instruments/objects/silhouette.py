@@ -1,9 +1,10 @@
-"""The outline of an object as a camera sees it: where its surface turns away, and where it ends.
+"""The outline of an object as a camera sees it: the edges where its surface turns away or ends.
+Pure.
 
-Pure. Which triangles share an edge is found once for a mesh. The surface turns away at an edge if
-both of its triangles are on the same side of the plane through it and the eye. On the screen, only
-those edges remain that have nothing of the object on their other side. Many objects, and large
-ones, have their boxes.
+The triangles that share an edge are found once for each mesh. The surface turns away at an edge if
+both of its triangles are on the same side of the plane through it and the eye. Only edges with
+nothing of the object on one side are drawn on the screen. Boxes replace the outlines of many
+objects, and of large ones.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ from lucida.renderer.system.memo import Memo
 Floats = NDArray[np.float64]
 
 MOST_TRIANGLES = 100_000  # of a mesh; one with more has a box instead
-MOST_EXACT = 32  # objects; of more, each mesh has its box
+MOST_EXACT = 32  # objects; if there are more, each mesh has its box
 CORNERS = 128  # of a sphere's ring
 
 # A box's corners: bit k of a corner's number is set if it is high along axis k.
@@ -34,15 +35,15 @@ _BOX = np.array([(a, b) for a in range(8) for b in range(a + 1, 8) if (a ^ b) in
 
 
 PIECE_PX = 6.0  # the longest piece of an outline that is drawn or not
-ASIDE_PX = 1.5  # from a piece to where its two sides are looked at
+ASIDE_PX = 1.5  # from a piece to the samples on its two sides
 
 
 class MeshEdges(NamedTuple):
     """The edges of a mesh, in its own space.
 
-    ends (n, 2, 3). planes (n, 2, 4): of an edge's two triangles, or twice that of its only one,
-    n . p + d = 0, with normals that turn about the edge in one sense. layers (n,): the number of
-    its triangles.
+    ends (n, 2, 3). planes (n, 2, 4): the planes of an edge's two triangles, or twice that of its
+    only one, n . p + d = 0, with normals that turn about the edge in one sense. layers (n,): the
+    number of its triangles.
     """
 
     ends: Floats
@@ -53,9 +54,8 @@ class MeshEdges(NamedTuple):
 class Outline(NamedTuple):
     """Lines where a surface turns away or ends.
 
-    segments (n, 2, 3): in the world. layers (n,): by how many triangles the surface is deeper on
-    the left of a segment, as the camera sees it, than on the right; 0 for a line that is always
-    drawn.
+    segments (n, 2, 3): in the world. layers (n,): the number of additional layers of surface on the
+    left of a segment, as the camera sees it, over the right; 0 for a line that is always drawn.
     """
 
     segments: Floats
@@ -79,7 +79,7 @@ def outline_of(entry: SceneObject, camera: Camera, most: int = MOST_TRIANGLES) -
         segments: Floats = np.where(_HIGH, high, low)[_BOX]
         layers = np.zeros(len(segments))
     else:
-        # For parallel rays, the eye is the direction to it, whose last component is 0.
+        # The eye of parallel rays is a direction, whose last component is 0.
         eye = np.append(camera.w, 0.0) if camera.is_parallel else np.append(camera.eye, 1.0)
         edges = edges_of(shape.vertices, shape.faces)
         front = edges.planes @ (np.linalg.inv(shape.transform) @ eye) > 0
@@ -112,7 +112,9 @@ def outer(points: Floats, layers: Floats, size: Size) -> Floats:
 
 
 def _layers(points: Floats, layers: Floats, size: Size) -> Floats:
-    """Return the number of layers at each pixel, (height, width + 1); the last column is beyond."""
+    """Return the number of layers at each pixel, (height, width + 1), one column beyond the
+    image.
+    """
     width, height = size
     (x, y), (x_end, y_end) = points.transpose(1, 2, 0)
     low, high = np.clip(np.ceil(np.sort([y, y_end], axis=0) - 0.5), 0, height).astype(int)
@@ -145,7 +147,7 @@ def _ring(sphere: Sphere, camera: Camera) -> Floats:
 
 
 def _edges(vertices: NDArray[Any], faces: NDArray[Any]) -> MeshEdges:
-    # Vertices at one place are one: meshes have several where their normals differ.
+    # Merge vertices at one place; meshes have several where their normals differ.
     mesh = trimesh.Trimesh(vertices.astype(float), faces, process=True)
     alone = trimesh.grouping.group_rows(mesh.edges_sorted, require_count=1)  # type: ignore[no-untyped-call]
     borders = mesh.edges_sorted[alone]

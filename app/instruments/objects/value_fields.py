@@ -1,4 +1,4 @@
-"""Fields for the values of scene files: numbers, three of them, colours; each a line of a panel."""
+"""Fields for the values of scene files: numbers, vectors and colours, each on a line of a panel."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Edits(list[Edit]):
             self.append(lambda scene: set_scene_field(scene, field, value))
 
 
-DIGITS = 6  # of a colour's part
-NARROW_EM = 7.0  # a field that is narrower shows a colour without its numbers
+DIGITS = 6  # of a colour component
+NARROW_EM = 7.0  # narrower fields show a colour without its numbers
 
 
 def number_line(
@@ -121,7 +121,7 @@ def light_lines(value: Color, tooltip: str, fonts: theme.Fonts) -> list[float] |
         factor = (strength or 1.0) / top if top > 0 else 0.0
         return [float(f"{part * factor:.{DIGITS}g}") for part in picked]
     scale = Scale(0.0, 2.0, least=0.0, most=BRIGHTEST)
-    new = number_line("intensity", strength, scale, "of its strongest part", fonts, 1.0)
+    new = number_line("intensity", strength, scale, "the largest of red, green, blue", fonts, 1.0)
     if new is None:
         return None
     new = min(max(new, 0.0), BRIGHTEST)

@@ -50,17 +50,15 @@ class CloudLayer:
         self._renderer.release()
 
     def _take(self, cloud: Cloud | None) -> None:
-        """Upload a cloud. Unchanged points stay on the GPU: there may be millions."""
-        before, self._cloud, self._key = self._cloud, cloud, None
-        if cloud is None:
-            self._renderer.take_points(np.zeros(0, POINT))
-            self._renderer.take_lines(np.zeros((0, 2, 3), np.float32))
-            return
-        self._renderer.take_lines((cloud.lines.segments - cloud.origin).astype(np.float32))
-        if before is None or before.points is not cloud.points:
+        """Upload a cloud, or none."""
+        self._cloud, self._key = cloud, None
+        lines, points = np.zeros((0, 2, 3), np.float32), np.zeros(0, POINT)
+        if cloud is not None:
+            lines = (cloud.lines.segments - cloud.origin).astype(np.float32)
             points = np.zeros(len(cloud.points), POINT)
             points["place"], points["color"] = cloud.points, cloud.colors
-            self._renderer.take_points(points)
+        self._renderer.take_points(points)
+        self._renderer.take_lines(lines)
 
 
 def _look(cloud: Cloud, screen: OutsideScreen, ink: Rgba) -> CloudLook:

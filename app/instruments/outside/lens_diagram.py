@@ -1,4 +1,4 @@
-"""What a lens does to a pixel, in a camera's diagram. Pure."""
+"""A lens's effect on a pixel, in a camera's diagram. Pure."""
 
 from __future__ import annotations
 

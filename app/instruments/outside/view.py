@@ -32,7 +32,6 @@ from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import orbited
-from lucida.renderer.images.frame import LARGEST_PIXELS, LARGEST_SIDE
 from lucida.renderer.raster.overlay import Overlay
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError, describe
@@ -188,7 +187,6 @@ class OutsideView(Instrument):
         if min(size) < SMALLEST_PX:
             self.unseen(host)  # nobody waits for what is not drawn
             return
-        size = min(size[0], LARGEST_SIDE), min(size[1], LARGEST_SIDE, LARGEST_PIXELS // size[0])
         host.renderers.need_size(host.state.images)
         area = Area.of(size, imgui.get_cursor_screen_pos())
         self._follow_mouse(host, self._scope(host, area))

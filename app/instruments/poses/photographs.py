@@ -116,7 +116,7 @@ def read_photograph(poses: PoseSet, number: int) -> Photograph:
             opened.thumbnail((SIDE_PX, SIDE_PX))
             pixels = np.asarray(opened.convert("RGB"))
     except (OSError, ValueError, SyntaxError, MemoryError, Image.DecompressionBombError):
-        return Photograph(path, problem=f"{one_line(path.name)} is no picture that can be read.")
+        return Photograph(path, problem=f"{one_line(path.name)} is not a readable picture.")
     return Photograph(path, pixels, size)
 
 

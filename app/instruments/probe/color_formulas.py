@@ -169,7 +169,7 @@ def _bounce_line(reading: Reading, number_: int, bounce: Bounce) -> Line:
         rf"\mathbf{{L}}_{{m{number_}}}",
         r"<k>\,<L>",
         {
-            # Of a later ray, the product of the reflectances on its way.
+            # A later ray is weighted by the product of the reflectances on its way.
             "k": _color("k_s" if number_ == 1 else f"w_{number_}", bounce.weight),
             "L": Slot(rf"\mathbf{{L}}(\mathbf{{r}}_{{{number_}}})", _color_text(bounce.color)),
         },
@@ -178,7 +178,7 @@ def _bounce_line(reading: Reading, number_: int, bounce: Bounce) -> Line:
 
 
 def _added(bounce: Bounce) -> Color:
-    """Return the lines for what a mirrored ray adds to the pixel."""
+    """Return the lines for the light that a mirrored ray adds to the pixel."""
     r, g, b = (w * c for w, c in zip(bounce.weight, bounce.color, strict=True))
     return r, g, b
 
@@ -266,5 +266,5 @@ def _color(symbol: str, value: Color) -> Slot:
 
 
 def _color_text(value: Iterable[float]) -> str:
-    """Return a colour, always with four decimals."""
+    """Return a colour as text, always with four decimals."""
     return "(" + r",\ ".join(f"{part:.{DECIMALS}f}" for part in value) + ")"

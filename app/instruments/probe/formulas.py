@@ -30,7 +30,7 @@ from .shading import SurfaceHit
 
 LECTURE_VIEWPORT = (-0.5, 0.5, -0.5, 0.5)
 LEAST_COSINE = (
-    1e-3  # to the viewer, of the light's normal, as renderer/trace/reference/shade.py has it
+    1e-3  # between the light's normal and the viewer, as in renderer/trace/reference/shade.py
 )
 
 
@@ -138,7 +138,7 @@ def _direction_and_origin(reading: Reading) -> list[Line]:
 
 
 def _range(camera: Camera) -> Line:
-    """Return the line for the valid t: t > 0, or what near and far leave."""
+    """Return the line for the valid t: t > 0, or between near and far."""
     low, high = camera.t_range
     if camera.near is None and camera.far is None:
         return Line("range", "half a line", "t > 0", "", (low, high))
@@ -180,7 +180,7 @@ def _sphere_t(reading: Reading) -> list[Line]:
         (a, b, c),
     )
     t = reading.hit.t
-    # The nearer root is -, and + where the ray begins inside the sphere, or is clipped there.
+    # The root with - is nearer; + applies if the ray begins, or is clipped, inside the sphere.
     sign = "-" if t <= -b / a else "+"
     slots = {
         "a": scalar_slot("a", a, factor=True),
@@ -228,7 +228,7 @@ def _geometric_normal(reading: Reading) -> Line:
     if reading.sphere is not None:
         center, _ = reading.sphere
         slots = {"x": vector_slot("x", hit.point), "c": vector_slot("c", center)}
-        # 0 where a tiny sphere far away is rounded to its centre.
+        # This is 0 if a tiny sphere far away is rounded to its centre.
         outside = np.dot(hit.geometric, np.subtract(hit.point, center)) >= 0
         first, second = ("<x>", "<c>") if outside else ("<c>", "<x>")
         return formula(
@@ -255,7 +255,7 @@ def _normal_for_light(hit: SurfaceHit) -> Line:
         name = "normal for the light, bent to the viewer"
         return formula("normal", name, bold("n"), right, {}, hit.normal)
     weights = (1 - hit.b1 - hit.b2, hit.b1, hit.b2)
-    # Towards the viewer too, whichever side the corners' point to.
+    # Towards the viewer, too, even if the corners' normals point away.
     sign = "-" if np.dot(weights, hit.corner_normals) @ np.array(hit.normal) < 0 else ""
     corners = r"b_0 \mathbf{n}_a + b_1 \mathbf{n}_b + b_2 \mathbf{n}_c"
     right = rf"{sign}\frac{{{corners}}}{{|\dots|}}"

@@ -59,8 +59,8 @@ class Probe:
     ) -> Reading:
         """Return the reading of one pixel of an image that `camera` draws.
 
-        Meetings are sorted: objects on the ray by t, then those that are not, then those that the
-        line misses, by number.
+        Meetings are sorted: objects on the ray by t, then objects elsewhere on the line, then
+        objects that the line misses, by number.
 
         transfer: "srgb" or "linear", the conversion from light to display values.
         shadows, mirror_depth: as for the tracer.
@@ -146,11 +146,13 @@ class Probe:
         row = self.flat.spheres[hit.primitive - len(self.flat.faces)]
         return three(row), float(row[3])
 
-    # Shadows and mirrors, as renderer/trace/tiles/effects.py has them.
+    # Shadows and mirrors, as in renderer/trace/tiles/effects.py.
 
     def _away(self) -> float:
         """Return the distance from a surface at which its rays start, in world units."""
-        from lucida.renderer.trace.tiles.effects import effects_of  # here: it loads the compiler
+        from lucida.renderer.trace.tiles.effects import (
+            effects_of,
+        )  # loads the compiler
 
         effects = effects_of(True, 0, self.flat.bounds)
         assert effects is not None

@@ -1,4 +1,4 @@
-"""The probe's panel: a pixel's formulas, the table of intersections, the origin of its colour.
+"""The probe's panel: a pixel's formulas, the table of intersections, and the origin of its colour.
 
 Takes a state and a reading, and returns a new state.
 """
@@ -66,7 +66,7 @@ def toolbar(
     if imgui.button("Pin") and pixel is not None:
         state = state.with_options(replace(state.options.probe, pins=(*pins, pixel)))
     imgui.end_disabled()
-    imgui.set_item_tooltip("keep this pixel at hand, and its ray in the outside view")
+    imgui.set_item_tooltip("keep this pixel in the list, and its ray in the outside view")
     follow(button_width("Copy"))
     imgui.begin_disabled(reading is None)
     if imgui.button("Copy") and reading is not None:
@@ -78,7 +78,7 @@ def toolbar(
 
 
 def pin_row(state: AppState, pins: Iterable[Pin], pixel: Pixel | None) -> AppState:
-    """Draw the pinned pixels as buttons: a click goes to a pin, a right click removes it."""
+    """Draw the pinned pixels as buttons: a click selects a pin, and a right click removes it."""
     indexing = state.options.indexing
     for count, pin in enumerate(pins):
         name = f"{count + 1}: {indexing.text(pin.pixel)}"
@@ -112,7 +112,7 @@ def reading_panel(
     fonts: Fonts,
     stage: str = "",
 ) -> None:
-    """Draw the reading. stage: of the growing formula, whose term is pointed out."""
+    """Draw the reading. stage: the stage of the growing formula whose term is highlighted."""
     ray, hit, color = _written(reading, indexing)
     if _section("Ray", fonts):
         _lines(replace(one, latex=lit(one.latex, lit_in(one.latex, stage))) for one in ray)
@@ -205,7 +205,9 @@ def _row(meeting: Meeting, fonts: Fonts) -> None:
 
 
 def color_row(shown: Shown | None, fonts: Fonts) -> None:
-    """Draw a pixel's colour as displayed, and its red, green and blue. None: there is no pixel."""
+    """Draw a pixel's colour as displayed, and its red, green and blue. shown: None without a
+    pixel.
+    """
     side = imgui.get_text_line_height()
     _swatch(shown[1] if shown is not None else (0, 0, 0), side)
     with lettering(fonts.mono):

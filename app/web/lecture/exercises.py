@@ -1,6 +1,6 @@
 """A step's exercise as a form, and the data to judge its answers.
 
-The replies are in templates, so that a page's script never makes HTML of a text.
+The replies are in templates, so that a page's script never turns text into HTML.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ BOLD = frozenset("uvwepdx")
 def data_of(step: Step, explained_by: str, size: Size) -> dict[str, Any] | None:
     """Return modules/exercise.js's data to judge answers; None for a step without an exercise.
 
-    explained_by: the step before the exercise that explains it. size: of the step's images.
+    explained_by: the earlier step that explains the exercise. size: of the step's images.
     """
     match step.exercise:
         case RayExercise() as task:
@@ -58,7 +58,7 @@ def data_of(step: Step, explained_by: str, size: Size) -> dict[str, Any] | None:
 
 
 def _choice(task: ChoiceExercise, step: Step) -> dict[str, Any]:
-    """Return the options, and the step's camera as each changes it."""
+    """Return the options, each with the step's camera as it changes it."""
     options = [_option(task.check(place)) for place in range(len(task.options))]
     for data, option in zip(options, task.options, strict=True):
         if option.camera is not None:
@@ -144,7 +144,7 @@ def _vectors(task: VectorExercise) -> dict[str, Any]:
 
 
 def numbers(values: ArrayLike) -> list[float | None]:
-    """Return numbers for JSON, which has null for those that are not finite."""
+    """Return numbers for JSON, with None for those that are not finite."""
     return [one if math.isfinite(one) else None for one in np.ravel(values).astype(float).tolist()]
 
 
@@ -201,7 +201,9 @@ def _fields(number: str, task: TypedExercise) -> str:
 
 
 def _name(text: str) -> str:
-    """Return an attribute that names a button of formulas only, for which browsers find no name."""
+    """Return an attribute that names a button of formulas, which browsers cannot name
+    themselves.
+    """
     blocks = parse(text)
     if not all(isinstance(block, Paragraph) for block in blocks):
         return ""

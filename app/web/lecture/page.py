@@ -48,8 +48,8 @@ def page(
 ) -> str:
     """Return the page.
 
-    stills: of each build. answers: include answers and solutions. for_print: leave out live
-    figures, and builds that are stages on the way to the next one.
+    stills: the pictures of each build. answers: include answers and solutions. for_print: leave out
+    live figures, and builds that only lead to the next one.
     """
     steps: list[str] = []
     tasks: dict[str, Any] = {}
@@ -90,7 +90,7 @@ def page(
 
 
 def is_printed(step: Step, after: Step | None) -> bool:
-    """Return True if a build is more than a stage on the way to the next one.
+    """Return True unless a build only leads to the next one.
 
     after: the next build of the step, None for its last one.
     """
@@ -169,7 +169,7 @@ class _Step:
         """Return a picture, or a drawing."""
         name = f"view of-{still.view}"
         if self.figure and self.figure["open"] and is_live(still.view, self.figure["shows"]):
-            name += " still"  # for prints, and where there is no WebGL
+            name += " still"  # for print, and for browsers without WebGL
         seen = plain(alternative(still.view, self._step, self._state))
         height, width = still.pixels.shape[:2]
         size = f'width="{width}" height="{height}" alt="{seen}"'

@@ -17,14 +17,14 @@ from lucida.renderer.images.display import Bytes
 
 Form = Literal["webp", "jpeg"]
 QUALITY = {"webp": 82, "jpeg": 85}
-SMALL_PX = 256  # of a width: a picture whose pixels are drawn as squares
-COLOR = re.compile(r'"(#[0-9a-f]{6})"')  # of an attribute
+SMALL_PX = 256  # smaller pictures are drawn with square pixels
+COLOR = re.compile(r'"(#[0-9a-f]{6})"')  # an attribute's value
 
 
 def data_uri(pixels: Bytes, form: Form = "webp", is_exact: bool = False) -> str:
-    """Return a picture, (height, width, 3).
+    """Return the data URI of a picture, (height, width, 3).
 
-    form: PDF files keep JPEG unchanged. is_exact: lossless, in WebP.
+    form: PDF files keep JPEG unchanged. is_exact: lossless, for WebP.
     """
     file = io.BytesIO()
     image = Image.fromarray(np.ascontiguousarray(pixels))

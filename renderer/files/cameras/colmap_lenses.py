@@ -32,7 +32,7 @@ MODELS = {
         "SIMPLE_RADIAL_FISHEYE": "f cx cy k",
         "RADIAL_FISHEYE": "f cx cy k1 k2",
         "THIN_PRISM_FISHEYE": "fx fy cx cy k1 k2 p1 p2 k3 k4 sx1 sy1",
-        # Since COLMAP 4. Those without an entry in _LENSES are only known by name.
+        # Since COLMAP 4. Only the names are known of models without an entry in _LENSES.
         "RAD_TAN_THIN_PRISM_FISHEYE": "fx fy cx cy k0 k1 k2 k3 k4 k5 p0 p1 s0 s1 s2 s3",
         "SIMPLE_DIVISION": "f cx cy k",
         "DIVISION": "fx fy cx cy k",
@@ -43,7 +43,7 @@ MODELS = {
     }.items()
 }
 NAMES = tuple(MODELS)
-# The model of Lens of each; "" where there is none.
+# Lens's model for each of them.
 LENSES = {
     **dict.fromkeys(("SIMPLE_PINHOLE", "PINHOLE"), "brown"),
     **dict.fromkeys(("SIMPLE_RADIAL", "RADIAL", "OPENCV", "FULL_OPENCV"), "brown"),
@@ -80,7 +80,7 @@ def colmap_lens(model: str, width: int, height: int, values: list[float]) -> Col
     known = dict(zip(names, values, strict=True))
     for name, value in known.items():
         positive(name, value, "1000, in pixels") if name in _FOCAL else number(name, value)
-    if "w" in known:  # of the whole sphere
+    if "w" in known:  # a panorama of the whole sphere
         known |= {"fx": known["w"] / (2 * math.pi), "fy": known["h"] / math.pi}
         known |= {"cx": known["w"] / 2, "cy": known["h"] / 2}
     fx, fy = (known.get(name, known.get("f", 0.0)) for name in ("fx", "fy"))

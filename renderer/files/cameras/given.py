@@ -44,7 +44,7 @@ class Given:
 
     @cached_property
     def is_text(self) -> bool:
-        """True if the data can be text, so that a format can look at it without an error."""
+        """True if the data can be text, which a format can then examine without an error."""
         try:
             return bool(self.text.strip()) and "\0" not in self.text
         except LucidaError:

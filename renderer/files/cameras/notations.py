@@ -1,8 +1,8 @@
 """Tables of named values: OpenCV's FileStorage (YAML, JSON, XML), ROS's YAML and .ini, and pasted
 text such as `K = np.array([[800, 0, 320], ...])`, as NumPy, Python, C and MATLAB write it.
 
-Parses the notations, and returns plain Python values: numbers, texts and lists. Nothing is
-executed: a calculation with the numbers is an error, since they would be wrong without it.
+The parsers return plain Python values: numbers, texts and lists. Nothing is executed. A calculation
+with the numbers is an error, because the numbers alone would be wrong.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Table = dict[str, Any]
 
 MOST_BYTES = 1 << 19  # a calibration of some thousand corners; YAML is slow to parse
 
-# Only in YAML: a matrix by its parts, or names and numbers on lines below a name.
+# Only YAML has a matrix by its parts, or names and numbers on lines below a name.
 _YAML = re.compile(
     r"^\s*(?:rows|data)\s*:|^\w+:[ \t]*\r?\n(?:[ \t]+\w+:|[ \t]*-[ \t])", re.MULTILINE
 )
@@ -46,7 +46,7 @@ _KEYWORD = re.compile(
     r"""["']?\b(?:dtype|device|elements|data)["']?\s*[=:](?:\s*[\w.'":]+)?|\.reshape\([^)]*\)"""
 )
 _CALL = re.compile(r"[A-Za-z_][\w.:]*\s*(?=\()")
-# As people type them: np.eye(3), numpy.identity(4), np.zeros(3), np.zeros((3, 1)), eye(3).
+# Matrices as people type them: np.eye(3), numpy.identity(4), np.zeros(3), np.zeros((3, 1)), eye(3).
 _MADE = re.compile(r"(?:\w+\.)?(eye|identity|zeros)\(\s*\(?\s*(\d)\s*(?:,\s*(\d)\s*)?\)?\s*\)")
 _NUMBER = re.compile(r"[-+]?(?:(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|nan|inf)", re.IGNORECASE)
 _BETWEEN = re.compile(r"(?:(?<=[\d.])f)?[\s\[\](){},;]+|(?<=\d)x(?=\d)")
@@ -98,7 +98,7 @@ def to_yaml(table: Table, comments: list[str]) -> str:
 
 
 def _value(value: Any) -> Any:
-    """Return a value in which a table that has data is only its data: a matrix, row by row."""
+    """Return a value with each table that has data (a matrix) replaced by its data, row by row."""
     if not isinstance(value, dict):
         return value
     if "data" in value:
@@ -113,7 +113,7 @@ def _from_xml(text: str) -> Any:
     try:
         root = ElementTree.fromstring(text.encode())
     except (ElementTree.ParseError, ValueError, LookupError) as error:
-        problem = f"is no XML: {error}"
+        problem = f"is not XML: {error}"
         raise LucidaError("", problem, "correct it there") from None
     if root.tag != "opencv_storage":
         problem = f"is XML of another kind: {root.tag}"
@@ -153,13 +153,13 @@ def _from_yaml(text: str) -> Any:
     except yaml.MarkedYAMLError as error:
         mark = error.problem_mark
         where = f"line {mark.line + 1}, column {mark.column + 1}" if mark else ""
-        raise LucidaError(where, error.problem or "is no YAML", "correct the YAML there") from None
+        raise LucidaError(where, error.problem or "is not YAML", "correct the YAML there") from None
     except yaml.YAMLError:
-        raise LucidaError("", "holds characters that YAML has not", "save it anew") from None
+        raise LucidaError("", "holds characters that YAML does not allow", "save it anew") from None
     except RecursionError:
         raise LucidaError("", "is nested too deeply", "write it with fewer brackets") from None
     except (ValueError, OverflowError):  # an impossible number or date
-        raise LucidaError("", "holds a number that cannot be", "correct it") from None
+        raise LucidaError("", "holds an impossible number", "correct it") from None
     if len(documents) > 1:
         problem = f"holds {len(documents)} documents, separated by ---"
         raise LucidaError("", problem, "give each camera a file of its own")
@@ -189,7 +189,7 @@ for _tag in ("opencv-matrix", "opencv-nd-matrix"):
 
 
 def assigned(text: str) -> dict[str, str]:
-    """Return what a text assigns to each name, up to the next one. The last of a name counts."""
+    """Return the text assigned to each name, up to the next name. The last assignment counts."""
     text = _COMMENT.sub("", text)
     names = list(_NAME.finditer(text))
     ends = [*(name.start() for name in names[1:]), len(text)]
@@ -217,7 +217,7 @@ def value_of(name: str, text: str) -> Any:
     words = [word for word in _BETWEEN.split(text) if word]
     for word in words:
         if not _NUMBER.fullmatch(word):
-            problem = f"goes on with {word[:30]!r} after its numbers"
+            problem = f"continues with {word[:30]!r} after its numbers"
             raise LucidaError(name, problem, "give the numbers alone")
     numbers = list(map(float, words))
     return numbers[0] if len(numbers) == 1 else numbers

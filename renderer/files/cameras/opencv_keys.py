@@ -22,7 +22,7 @@ from .distortion import NAMES
 from .entries import entries_of, flat, notes_on, number_of, plain
 from .notations import Table
 
-Keys = dict[str, tuple[str, Any]]  # by role: the file's name for it, and its value
+Keys = dict[str, tuple[str, Any]]  # by role: the key's name in the file, and its value
 
 # Roles, and the names that programs use, in lower case, letters and digits only. A name inside a
 # table counts with the table's name and without it: "Camera.type" is "cameratype".
@@ -79,7 +79,7 @@ _LENS_NAMES = {"fisheye": distortion.FISHEYE_NAMES, "fov": ("omega",)}
 
 
 def are_cameras(names: set[str]) -> bool:
-    """Return True if a file with these names, without their tables', must hold a camera."""
+    """Return True if a file with these names (without table names) must hold a camera."""
     roles = {_ROLES.get(name) for name in names}
     pairs = {"m1", "m2"}, {"k1", "k2", "d1", "d2"}, {"cameramatrix1", "cameramatrix2"}
     is_stereo = any(names >= pair for pair in pairs)
@@ -87,7 +87,7 @@ def are_cameras(names: set[str]) -> bool:
 
 
 def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
-    """Return the keys of each camera, by its name, "" for one without; and notes on unused keys.
+    """Return the keys of each camera by its name ("" if it has none), and notes on unused keys.
 
     Of several keys with one role, the first counts.
     """
@@ -118,11 +118,11 @@ def cameras_in(table: Table) -> tuple[dict[str, Keys], tuple[str, ...]]:
     if "right" in cameras:
         cameras["right"] |= {role: shared.pop(role) for role in ("R", "t") if role in shared}
     for name in [name for name in cameras if name.lower() == "camera"]:
-        if not _INTRINSIC & cameras[name].keys():  # it belongs to Camera1 and Camera2
+        if not _INTRINSIC & cameras[name].keys():  # Camera1 and Camera2 share these keys
             shared |= cameras.pop(name)
     names = sorted(cameras, key=lambda name: (len(name), name))
     if _INTRINSIC & shared.keys() and any(_INTRINSIC & cameras[name].keys() for name in names):
-        names, cameras[""] = ["", *names], shared  # a camera of its own
+        names, cameras[""] = ["", *names], shared  # a camera without a table
         shared = {role: shared[role] for role in _SIZES & shared.keys()}
     found = {name: shared | cameras[name] for name in names} or {"": shared}
     return found, notes_on(unused)
@@ -139,7 +139,7 @@ def lens_in(keys: Keys) -> Lens | None:
     model = next(filter(None, models), "brown")
     if "mirror" in keys and number_of(*keys["mirror"]):
         name, value = keys["mirror"]
-        problem = f"{value!r} is of a mirror or Mei's lens, which is not supported"
+        problem = f"{value!r} is a mirror or Mei's lens, which is not supported"
         raise LucidaError(name, problem, "give a pinhole or a fisheye")
     known = _LENS_NAMES.get(model, NAMES)
     if "lens" in keys:
@@ -170,7 +170,7 @@ def lens_table(lens: Lens | None) -> Table:
     if lens is None:
         return {"distortion_coefficients": np.zeros((5, 1))}
     if lens.coefficient("r8"):
-        problem = f"{lens.coefficient('r8'):g} is a term that OpenCV has not"
+        problem = f"{lens.coefficient('r8'):g} is a term that OpenCV does not have"
         raise LucidaError("lens.r8", problem, "leave it out")
     table: Table = {"distortion_model": "equidistant", "fisheye_model": 1}
     names: tuple[str, ...] = distortion.FISHEYE_NAMES

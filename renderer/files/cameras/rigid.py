@@ -13,7 +13,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, listed
 from lucida.renderer.system.errors import LucidaError
 
-STRAIGHT = 1e-6  # a smaller cosine is float32's rounding: treated as a right angle
+STRAIGHT = 1e-6  # smaller cosines are float32 rounding, and count as right angles
 UNSEEN_PX = 0.01  # a change that moves no point of the image by more is rounding
 ANY_SIZE = (4096, 4096)  # assumed for an image of unknown size
 ROUNDED = 1e-4  # error of a rotation's numbers with four digits, or in float32
@@ -25,7 +25,7 @@ def rigid(camera: Camera, target: str) -> Camera:
 
     A rotation that a file has rounded becomes the nearest rotation, and the viewport stays
     unchanged, so that images with one calibration keep sharing it. Otherwise the lengths of u and v
-    move into the viewport. So does, in perspective, the tilt of w: the image plane is then
+    move into the viewport. In perspective, so does the tilt of w; the image plane is then
     off-centre. near and far are measured along the new w. A parallel camera's eye moves to the
     viewport's centre.
 
@@ -35,7 +35,7 @@ def rigid(camera: Camera, target: str) -> Camera:
     """
     u, v, w = (np.asarray(vector) for vector in (camera.u, camera.v, camera.w))
     if camera.determinant < 0:
-        problem = f"{listed(u)} is left-handed with v and w, a mirror that {target} has not"
+        problem = f"{listed(u)} is left-handed with v and w; {target} cannot mirror"
         raise LucidaError("u", problem, "negate u, which mirrors the picture")
     if np.abs(camera.basis.T @ camera.basis - np.eye(3)).max() <= ROUNDED:
         turn, _, back = np.linalg.svd(camera.basis)
@@ -52,8 +52,8 @@ def rigid(camera: Camera, target: str) -> Camera:
     if camera.lens is not None:
         off += [width / length - 1, height / length - 1]
     if max(map(abs, off)) > STRAIGHT:
-        even = " and of one length, as behind a lens" * (camera.lens is not None)
-        problem = f"{listed(w)} is not with u and v at right angles{even}, as {target} needs"
+        even = " and of equal length, as behind a lens" * (camera.lens is not None)
+        problem = f"{listed(w)} is not at right angles to the others{even}, as {target} requires"
         raise LucidaError("w", problem, REMEDY)
     left, right, bottom, top = camera.viewport
     x, y = lean_x * camera.distance, lean_y * camera.distance

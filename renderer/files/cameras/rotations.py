@@ -1,5 +1,5 @@
-"""Rotations as matrices, quaternions (w, x, y, z), and vectors: along the axis, with the angle in
-radians as length (Rodrigues).
+"""Rotations as matrices, quaternions (w, x, y, z), and vectors along the axis, whose
+length is the angle in radians (Rodrigues).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ def rotation_of(quaternion: ArrayLike) -> Floats:
     length = np.linalg.norm(parts, axis=-1, keepdims=True)
     if not (length > 1e-9).all():
         wrong = parts.reshape(-1, 4)[int(np.argmin(length))]
-        problem = f"{listed(wrong)} is no rotation"
+        problem = f"{listed(wrong)} is not a rotation"
         raise LucidaError("quaternion", problem, "give w, x, y, z of length 1")
     w, x, y, z = np.moveaxis(parts / length, -1, 0)
     rows = [

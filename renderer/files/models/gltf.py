@@ -1,4 +1,4 @@
-"""glTF 2.0 files, .gltf and .glb: which meshes are where, with which material.
+"""glTF 2.0 files, .gltf and .glb: the meshes, their placements and their materials.
 
 Skins, morph targets and animations are not read, only reported.
 Source: Khronos, glTF 2.0 Specification.
@@ -92,7 +92,7 @@ def read_gltf(path: Path, images: ModelImages) -> GltfContent:
     for placed, mesh, primitive in shown:
         material = None if primitive.material is None else materials[primitive.material]
         has_backs = material is not None and material.single_sided
-        # A few bytes of JSON can show one buffer a thousand times: it is built once.
+        # A few bytes of JSON can show one buffer a thousand times; it is built only once.
         used = _accessors(tree, primitive)
         views = (None if number is None else tree.entry("accessors", number) for number in used)
         key = primitive.mode, has_backs, *views
@@ -141,7 +141,7 @@ def _node_matrix(node: Node) -> NDArray[np.float64]:
 
 
 def _not_moved(tree: Gltf) -> Iterator[str]:
-    """Yield what would move the meshes' vertices, and what is no surface."""
+    """Yield the features that would move the meshes' vertices, and primitives without surface."""
     primitives = [primitive for mesh in tree.meshes for primitive in mesh.primitives]
     if any(node.skin is not None for node in tree.nodes):
         yield "skins"
@@ -155,7 +155,7 @@ def _not_moved(tree: Gltf) -> Iterator[str]:
 
 def _accessors(tree: Gltf, primitive: Primitive) -> tuple[int | None, ...]:
     """Return the accessors of a primitive's positions, normals, colours, indices, and texture
-    coordinates: those of its material's image.
+    coordinates (the set that its material's image uses).
     """
     if "POSITION" not in primitive.attributes:
         raise LucidaError("meshes", "have a primitive without POSITION", AGAIN)
@@ -216,7 +216,7 @@ def _part(
 
 def triangles_of(corners: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
     """Return the triangles (m, 3) of a list, strip or fan of vertices, counter-clockwise from the
-    front. Those that repeat a vertex only join strips: they have no area.
+    front. Triangles that repeat a vertex only join strips, and are left out.
     """
     if mode == TRIANGLE_LIST:
         return corners[: len(corners) // 3 * 3].reshape(-1, 3)
@@ -224,5 +224,5 @@ def triangles_of(corners: NDArray[np.int64], mode: int) -> NDArray[np.int64]:
     if mode == TRIANGLE_FAN:
         return np.stack([second, third, np.broadcast_to(corners[:1], second.shape)], axis=1)
     faces = np.stack([first, second, third], axis=1)
-    faces[1::2, 1:] = faces[1::2, :0:-1]  # every other one goes the other way round
+    faces[1::2, 1:] = faces[1::2, :0:-1]  # every other triangle has the opposite winding
     return faces

@@ -20,14 +20,16 @@ from lucida.renderer.scene.model import DirectionalLight, PointLight, SceneObjec
 from .gltf import PlacedNode
 from .gltf_file import Gltf, GltfLight
 
-BRIGHTEST = 10.0  # of a white surface: a file in lux and candela is made darker
+BRIGHTEST = 10.0  # of a white surface; files in lux and candela are darkened to it
 
 
 def scene_lights(
     tree: Gltf, nodes: Iterable[PlacedNode], objects: list[SceneObject], images: ModelImages
 ) -> tuple[PointLight | DirectionalLight, ...]:
-    """Return lights with which diffuse surfaces are as bright as with the file's: surfaces at the
-    median distance of the objects, for a point light. Note what is not shown. Raises LucidaError.
+    """Return lights with which diffuse surfaces are as bright as with the file's lights.
+
+    For a point light, this holds at the median distance of the objects. Lights that are not shown
+    are noted. Raises LucidaError.
     """
     found: list[tuple[bool, NDArray[np.float64], NDArray[np.float64]]] = []
     for placed in nodes:

@@ -1,6 +1,6 @@
-"""The materials of a glTF file: the nearest of this project's, and notes on what is not shown.
+"""The materials of a glTF file, as the nearest ones that Lucida has, with notes on the differences.
 
-A fault in an image costs a note, not the model.
+A faulty image causes a note; the model is still read.
 Source: Khronos, glTF 2.0 Specification; KHR_texture_transform.
 """
 
@@ -47,7 +47,7 @@ def read_materials(
 
 
 def _not_shown(given: GltfMaterial) -> Iterator[str]:
-    """Yield what of a material no picture shows."""
+    """Yield the features of a material that are not shown."""
     if given.alpha_mode == "BLEND":
         yield "transparency (BLEND), which is drawn opaque"
     if given.normal_texture is not None:
@@ -61,13 +61,13 @@ def _not_shown(given: GltfMaterial) -> Iterator[str]:
 
 
 def _material(file: OpenGltf, given: GltfMaterial, images: ModelImages) -> Material:
-    """Return a base colour, and a highlight by roughness; see metal.py."""
+    """Return a material with the base colour and a highlight by roughness; see metal.py."""
     pbr = given.pbr_metallic_roughness
     *rgb, alpha = np.clip(np.nan_to_num(pbr.base_color_factor), 0, 1).tolist()
     base: Color = (rgb[0], rgb[1], rgb[2])
     cutout = None
     if given.alpha_mode == "MASK" and given.alpha_cutoff > 0:
-        # The factor multiplies the opacity. More than all of it leaves nothing.
+        # The factor multiplies the opacity. A cutout above 1 leaves nothing.
         cutout = min(given.alpha_cutoff / max(alpha, 1e-6), 1e6)
     single_sided = not given.double_sided
     texture, metal = None, None
@@ -104,7 +104,7 @@ def _factor(value: float) -> float:
 
 
 def _white(metal: Texture) -> Texture | None:
-    """Return white where a metal lies; None where a metal alone lies there."""
+    """Return white with the placement of a metal; None if none is needed."""
     if placed_alike(metal, WHITE):
         return None
     place = metal.wrap, metal.scale, metal.offset

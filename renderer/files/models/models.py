@@ -41,8 +41,9 @@ READERS = {".obj": read_obj, ".ply": read_ply, ".stl": read_stl, ".off": read_of
 
 @dataclass(frozen=True, eq=False)
 class ModelFile:
-    """views, lights: the file's own; only glTF has any. notes: what of the file is not shown, a
-    line each.
+    """The content of a model file.
+
+    views, lights: the file's own; only glTF has any. notes: a line for each thing not shown.
     """
 
     objects: tuple[SceneObject, ...]
@@ -60,8 +61,9 @@ def load_model(path: str | Path) -> ModelFile:
 
 
 def read_by(reader: Reader) -> AbstractContextManager[object]:
-    """Make `reader` do the work of load_model() during the block, on this thread: for models that
-    are read elsewhere, or can be cancelled. It must behave like read_model().
+    """Make load_model() use `reader` during the block, on this thread.
+
+    It must behave like read_model(), but may read models in another process, or be cancelled.
     """
     return during(_reader, reader)
 
@@ -136,7 +138,7 @@ def _objects(path: Path, instances: list[PlacedPart], images: ModelImages) -> li
     for instance in instances:
         part, matrix = instance.part, instance.matrix
         linear = matrix[:3, :3]
-        if not linear.any():  # by which files hide a node
+        if not linear.any():  # a scale of 0, by which files hide a node
             continue
         check_cancelled()
         if is_flat(linear):
@@ -159,7 +161,7 @@ def _objects(path: Path, instances: list[PlacedPart], images: ModelImages) -> li
 
 
 def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) -> Material:
-    """Return the material, without its images where the mesh has no places on them."""
+    """Return the material, without its images if the mesh has no texture coordinates."""
     if material.image is None or mesh.uv is not None:
         return material
     images.note(f"{shown(name)} has no texture coordinates; the plain colour is shown")
@@ -167,7 +169,7 @@ def _shown_on(mesh: Mesh, material: Material, name: str, images: ModelImages) ->
 
 
 def _material(part: Part) -> Material:
-    """Return the default material; a white one if the file has colours, which multiply it."""
+    """Return the default material, white if the file has colours, which multiply it."""
     if part.colors is None:
         return framing.MATERIAL
     return replace(framing.MATERIAL, diffuse=(1.0, 1.0, 1.0))

@@ -1,4 +1,4 @@
-"""Wavefront .obj files: vertices, polygons, objects and materials, and which line has an error."""
+"""Wavefront .obj files: vertices, polygons, objects and materials. Errors name their line."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .parts import Part, linear_colors, used_vertices
 from .polygons import triangulated
 from .texts import Ints
 
-# What changes no picture: smoothing and groups, without values; levels of detail, bevels.
+# Lines that change no picture: smoothing and groups without values, levels of detail, bevels.
 _HARMLESS = ("s", "g", "mg", "lod", "bevel", "c_interp", "d_interp", "end")
 Floats = NDArray[np.float64]
 Named = tuple[str, Ints | slice, Material | None]  # a part's name, triangles and material
@@ -42,7 +42,7 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
     try:
         vertices, coordinates, normals = (_rows(lines, kind, images) for kind in ("v", "vt", "vn"))
         columns, counts = _corners(lines)
-        # A last face of two corners is cut off.
+        # The file is cut off if its last face has two corners.
         if vertices.shape[1] < 3 or counts[-1] < 3 or not _are_within(columns[0], len(vertices)):
             raise ValueError
     except ValueError:
@@ -81,8 +81,8 @@ def read_obj(path: Path, images: ModelImages) -> list[Part]:
 def _by_coordinates(
     named: list[Named], has_uv: NDArray[np.bool_], images: ModelImages
 ) -> Iterator[Named]:
-    """Yield the parts, those apart that have no coordinates for their texture: in its material's
-    plain colour.
+    """Yield the parts. Triangles without coordinates for their texture become separate parts, in
+    the plain colour of their material.
     """
     for name, which, material in named:
         numbers = np.arange(len(has_uv))[which]
@@ -97,8 +97,9 @@ def _by_coordinates(
 
 
 def _rows(lines: Lines, kind: str, images: ModelImages) -> Floats:
-    """Return the numbers of all lines of a kind, as many of each as the shortest line has. Note
-    that there are more, such as colours that only some vertices have.
+    """Return the numbers of all lines of a kind, cut to the length of the shortest line.
+
+    Longer lines are noted: for example, only some vertices may have colours.
     """
     text = lines.of(kind)
     begins, counts = texts.words(text)
@@ -113,7 +114,7 @@ def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
     """Return the polygons' corners: indices of vertices, texture coordinates and normals, (c,),
     None where no corner has any; and the number of corners of each polygon.
 
-    Indices count from 0; -1 means none, less an impossible one.
+    Indices count from 0; -1 means none, and lower numbers are invalid.
     """
     columns = []
     found, counts = texts.corners(lines.of("f"))
@@ -140,8 +141,8 @@ def _merged(
     """Return (source, faces, uv, normal): the vertex, texture coordinates and normal of each new
     vertex, and the faces.
 
-    corners: triangles of vertices, texture coordinates and normals. uvs, normals: how many there
-    are. Corners that agree in all three become one vertex. uv is None unless all corners have
+    corners: triangles of vertices, texture coordinates and normals. uvs, normals: their numbers.
+    Corners that agree in all three become one vertex. uv is None unless all corners have
     coordinates, normal if none has a normal; those without one are given number `normals`.
     """
     key = vertices = corners[0].reshape(-1)
@@ -154,7 +155,7 @@ def _merged(
         others.append(flat)
         if flat is not None and not np.array_equal(vertices, flat):
             key = key * (count + 1) + flat
-    if key is vertices:  # all of them have the numbers of the vertices
+    if key is vertices:  # all indices equal those of the vertices
         source, faces = used_vertices(corners[0])
         uv, normal = (None if other is None else source for other in others)
         return source, faces, uv, normal
@@ -166,8 +167,9 @@ def _merged(
 def _named_parts(
     path: Path, lines: Lines, triangle_lines: Ints, images: ModelImages
 ) -> list[Named]:
-    """Return for each object and material a name, its triangles, and the material if the file has
-    it.
+    """Return a name, the triangles and the material for each object and material.
+
+    The material is None if the file does not have it.
     """
     keys: dict[tuple[str, str], int] = {("", ""): 0}
     at, states = [-1], [0]
@@ -226,7 +228,7 @@ def _materials(folder: Path, libraries: list[str], images: ModelImages) -> dict[
 
 
 def _blame_line(path: Path, lines: Lines) -> NoReturn:
-    """Raise LucidaError for the first line that is at fault."""
+    """Raise LucidaError for the first faulty line."""
     vertices = len(lines.numbers("v"))
     for number, line in enumerate(lines.text.decode("utf-8", "replace").split("\n")):
         keyword, *words = line.partition("#")[0].split() or [""]
@@ -240,6 +242,6 @@ def _blame_line(path: Path, lines: Lines) -> NoReturn:
         except ValueError:
             is_sound = False
         if not is_sound:
-            problem = f"{line[:60]!r} is no line of an OBJ with {vertices} vertices"
+            problem = f"{line[:60]!r} is not valid in an OBJ with {vertices} vertices"
             raise LucidaError(f"line {number}", problem, "repair the line", str(path))
     raise LucidaError("", "cannot be read as OBJ", "export it again, as triangles", str(path))

@@ -14,11 +14,11 @@ _COMMENT = re.compile(rb"#[^\n]*")
 _INDENT = re.compile(rb"^ +", re.MULTILINE)
 _BLANK = ord(" ")
 _NOTHING = np.frombuffer(b"#\n", np.uint8)
-_KINDS = ("v", "vn", "vt", "f", "l", "p", "s", "g")  # of which there may be many lines
+_KINDS = ("v", "vn", "vt", "f", "l", "p", "s", "g")  # kinds with many lines
 
 
 class Lines:
-    """The lines of a tidy text (texts.tidy), numbered as it is: its empty first line is 0."""
+    """The lines of a tidy text (texts.tidy), numbered from 0, its empty first line."""
 
     def __init__(self, text: bytes) -> None:
         text = text.replace(b"\t", b" ")
@@ -37,7 +37,7 @@ class Lines:
             mask = words[len(word)] == int.from_bytes(word, "big")
             is_other &= ~mask
             self._numbers[kind] = np.flatnonzero(mask)
-            for k in range(len(kind)):  # only numbers are left of these lines
+            for k in range(len(kind)):  # keep only the numbers of these lines
                 octets[begins[mask] + k] = _BLANK
         self._others = np.flatnonzero(is_other)
 

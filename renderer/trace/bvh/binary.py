@@ -48,10 +48,9 @@ class Bvh(NamedTuple):
     """A binary tree over numbered primitives.
 
     bounds: float32 (nodes, 6), low x, y, z, high x, y, z. Node 0 is the root; a child's box is
-    inside
-        its parent's.
-    links: int32 (nodes, 2): (first child, 0), with the second child in the next node; or, for a
-        leaf, (start, count): its primitives are order[start : start + count], count > 0.
+        inside its parent's.
+    links: int32 (nodes, 2): (first child, 0) for an inner node, with the second child in the next
+        node; (start, count) for a leaf of the primitives order[start : start + count], count > 0.
     order: int32 (n,), each primitive's number once.
     depth: number of nodes on the longest path from the root to a leaf, including both.
     """
@@ -67,8 +66,8 @@ def build(vertices: F32, faces: I32, spheres: F32, team: Team, leaf_size: int = 
 
     vertices (n, 3), faces (m, 3), spheres (k, 4; centre, radius): read-only, in the same space.
 
-    The threads first split the top of the tree, each time into pieces of half the size, until each
-    has some; then into pieces small enough to balance the load; then they build these.
+    The threads first split the top of the tree, halving the pieces until each thread has some. They
+    then split these into pieces small enough to balance the load, and build their subtrees.
     """
     count = len(faces) + len(spheres)
     # A tree of n leaves has 2 n - 1 nodes; unused pages cost nothing.
@@ -119,9 +118,10 @@ def tree_of_scene(flat: FlatScene, team: Team, leaf_size: int = LEAF_SIZE) -> Tr
 
 
 def _without_area(flat: FlatScene) -> NDArray[np.bool_]:
-    """Return which primitives have no normal, and must not be hit.
+    """Return a mask of the primitives without a normal, which must not be hit.
 
-    Tested in their own space: rounding might give a degenerate triangle an area in world space.
+    They are tested in their own space, because rounding might give a degenerate triangle an area in
+    world space.
     """
     a, b, c = (flat.vertices[flat.faces[:, k]].astype(np.float64) for k in range(3))
     is_flat = ~np.cross(b - a, c - a).any(axis=1)
@@ -138,27 +138,27 @@ def _read_only(tree: Any) -> Any:
 
 def _share(team: Team, count: int, fill: Any, *arrays: np.ndarray) -> None:
     """Run a kernel that takes chunks of `count` primitives."""
-    team.run(fill, *arrays, new_control(), size=count // CHUNK)  # few are not worth a thread
+    team.run(fill, *arrays, new_control(), size=count // CHUNK)  # less is not worth a thread
 
 
-# Columns of a job: the node, its records, its level, the first node number that it may use; and,
-# once done, the number after the last that it used.
+# Columns of a job: the node, its records, its level, the first node number that it may use, and,
+# once done, the number after the last one used.
 _NODE, _START, _END, _LEVEL, _FREE, _USED = range(6)
 
 
 def _sizes(count: int, piece: int) -> list[int]:
     """Return the largest size of nodes after each round: three halvings, then `piece`.
 
-    There are so few rounds because each computes the bounds of its records again.
+    There are few rounds because each computes the bounds of its records again.
     """
     sizes = [size for size in (count >> 1, count >> 2, count >> 3) if size > piece]
     return sizes + [piece] * (count > 2 * piece)
 
 
 def _jobs(links: np.ndarray, levels: np.ndarray, used: int, leaf_size: int) -> np.ndarray:
-    """Return a job for each leaf that is too large, with room for the nodes it may need.
+    """Return a job for each leaf that is too large, with space for the nodes it may need.
 
-    The root is always a job, since its bounds are not known yet.
+    The root is always a job, because its bounds are not known yet.
     """
     if used == 1:
         return np.array([[0, 0, links[0, 1], 1, 1, 1]], np.int64)
@@ -195,7 +195,7 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
         start = take_next(control) * CHUNK
         if start >= count:
             return
-        # Pointers: their indices are not checked for being negative.
+        # The indices of pointers are not checked for negative values.
         corners, points, boxes = pointer(faces), pointer(vertices), pointer(records)
         for i in range(start, lesser(start + CHUNK, count)):
             at = RECORD * i
@@ -213,7 +213,7 @@ def _fill_records(vertices, faces, spheres, records, numbers, control):
             for axis in range(3):
                 low = spheres[s, axis] - spheres[s, 3]
                 high = spheres[s, axis] + spheres[s, 3]
-                # Outwards, by more than the rounding in the line above.
+                # Extend the box by more than the rounding error of the line above.
                 boxes[at + axis] = abs(low) * np.float32(1.2e-7) - low
                 boxes[at + HIGH + axis] = high + abs(high) * np.float32(1.2e-7)
 
@@ -243,7 +243,7 @@ def _fill_shapes(vertices, faces, spheres, order, shapes, control):
                 shapes[i, k], shapes[i, 3 + k], shapes[i, 6 + k] = a[k], b[k], c[k]
 
 
-# The smaller half is built first, so each waiting node is less than half of the previous one.
+# Each waiting node is less than half of the previous one, because smaller halves are built first.
 _WAITING = 72
 _waiting, _waiting_bounds = (
     stack_room(types.int64, 4 * _WAITING),
@@ -270,8 +270,8 @@ def _grow_pieces(records, bounds, links, levels, jobs, largest, leaf_size, contr
 def _grow(
     records, bounds, links, levels, job, largest, leaf_size, waiting, waiting_bounds, scratch
 ):
-    """Build a job's subtree, with nodes of at most `largest`, and store the index after its last
-    node.
+    """Build a job's subtree, with nodes of at most `largest` primitives. Store the index after its
+    last node.
     """
     free = job[_FREE]
     for k in range(4):
@@ -292,7 +292,7 @@ def _grow(
             continue
         links[node, 0], links[node, 1] = free, 0
 
-        # Split at the least cost; by count if no split has a cost.
+        # Split at the least cost, or by count if no split has a cost.
         middle, left, right = start, own, own
         if level < MAX_DEPTH:
             axis, last_bin = best_split(records, start, end, own, leaf_size, scratch)

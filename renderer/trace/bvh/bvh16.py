@@ -3,8 +3,8 @@
 This is the layout that the SIMD kernels traverse, and its construction from a binary tree
 (binary.py). One vector holds one coordinate of all boxes in a node, or of all triangles in a leaf.
 Source: Wald, Benthin and Boulos, "Getting Rid of Packets: Efficient SIMD Single-Ray Traversal using
-Multi-branching BVHs", 2008; the selection of nodes: Ylitie, Karras and Laine, "Efficient Incoherent
-Ray Traversal on GPUs Through Compressed Wide BVHs", 2017.
+Multi-branching BVHs", 2008. The selection of nodes follows Ylitie, Karras and Laine, "Efficient
+Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017.
 """
 
 from __future__ import annotations
@@ -47,9 +47,9 @@ FIRST_LEAF = -2  # leaf k is the child FIRST_LEAF - k
 BOX = 6 * WIDTH  # floats in a node's boxes
 CORNERS = 9 * WIDTH  # floats in a leaf's corners
 _FAR = np.float32(3.4e38)
-# The corner of an unused place in a leaf: every comparison with NaN is false. Coincident corners
-# would look like a triangle that needs float64 (tiles/triangle.py), and more than half of all
-# leaves are not full.
+# The corners of unused places in a leaf are NaN, since every comparison with NaN is false.
+# Coincident corners would look like a triangle that needs float64 (tiles/triangle.py), and more
+# than half of all leaves are not full.
 _NO_CORNER = np.float32(np.nan)
 _NO_SPHERES = np.zeros((0, 4), np.float32)
 _NO_SPHERES.setflags(write=False)
@@ -84,7 +84,7 @@ def aligned(count: int, dtype: type) -> NDArray:
     """Return an empty array of 4-byte numbers, aligned to cache lines of 64 bytes, the size of a
     vector.
 
-    NumPy's own arrays may begin in the middle of a line: each vector would then touch two lines.
+    NumPy's own arrays may begin in the middle of a line; each vector would then touch two lines.
     """
     room: NDArray = np.empty(count + LANES - 1, dtype)
     first = -room.ctypes.data // 4 % LANES
@@ -98,7 +98,7 @@ def tree_of_mesh(vertices: NDArray[np.float32], faces: NDArray[np.int32], team: 
     corner = aligned(len(leaves) * CORNERS, np.float32)
     face = np.empty(len(leaves) * WIDTH, np.int32)
     normal = aligned(len(leaves) * 3 * WIDTH, np.float32)
-    chunks = len(leaves) // _CHUNK  # few leaves are not worth another thread
+    chunks = len(leaves) // _CHUNK  # a chunk is the least work worth another thread
     team.run(
         _fill_leaves, vertices, faces, binary.order, leaves, corner, face, normal, new_control(),
         size=chunks,
@@ -150,8 +150,8 @@ def collapse(binary: Bvh) -> tuple[NDArray, NDArray, NDArray, int]:
     )
 
 
-# For each waiting node: the binary node, the wide one, its level. For a wide node's members: the
-# binary nodes, and their slots.
+# The binary node, the wide one and its level for each waiting node; the binary nodes and slots of a
+# wide node's members.
 _waiting = stack_room(types.int64, 3 * WIDTH * _LEVELS)
 _member, _slots = stack_room(types.int64, WIDTH), stack_room(types.int64, WIDTH)
 
@@ -162,12 +162,12 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
     levels.
 
     First, compute the cost of each binary node: the least total surface of the wide nodes that its
-    subtree takes if it has 1 to WIDTH slots in the node above. In one slot: its own surface, plus
-    the cost of its children in WIDTH slots. In more: the same, or the cost of its children when
-    they share these slots in the best way. Then create the wide nodes from the root on, according
-    to the costs. below: scratch for the number of leaves below each binary node. row: the start of
-    each node's WIDTH numbers in costs; a leaf's are 0. This is a single function because two would
-    take longer to compile.
+    subtree takes if it has 1 to WIDTH slots in the node above. In one slot, this is its own
+    surface plus the cost of its children in WIDTH slots. In more slots, it is the same, or the cost
+    of its children if they share these slots in the best way. Then create the wide nodes from the
+    root on, according to the costs. below: scratch for the number of leaves below each binary node.
+    row: the start of each node's WIDTH numbers in costs; a leaf's are 0. This is a single function
+    because two would take longer to compile.
     """
     # Pointers make a function with many indices faster to compile, and to run.
     bounds, below, leaves = pointer(bounds), pointer(below), pointer(leaves)
@@ -181,13 +181,13 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
             continue
         first = np.int64(links[2 * m])
         below[m] = below[first] + below[first + 1]
-        # More slots than leaves are useless: try those of the child with fewer leaves.
+        # More slots than leaves are useless, so try those of the child with fewer leaves.
         fewer = first + (below[first] > below[first + 1])
         few, many = np.int64(row[fewer]), np.int64(row[2 * first + 1 - fewer])
         least = splat(_FAR)
         for k in range(1, lesser(np.int64(below[fewer]), WIDTH - 1) + 1):
-            # Lane i - 1 is for i slots: k for one child, i - k for the other, which has none in the
-            # first k lanes.
+            # Lane i - 1 is for i slots, k for one child and i - k for the other, which has none in
+            # the first k lanes.
             rest = vmax(load(costs, many - k), load(costs, WIDTH - k))
             least = vmin(least, rest + costs[few + k - 1])
         dx = bounds[6 * m + 3] - bounds[6 * m]

@@ -6,8 +6,7 @@ them.
 A mesh's tree is in the mesh's own space. An object is an instance of its mesh: a transform and the
 root of a tree. A moved object therefore costs only a new box in the upper tree, and objects that
 share a mesh share its tree. Spheres are in the upper tree next to the instances. The upper tree's
-space is world space relative to the scene's centre: its boxes are accurate in float32 wherever the
-scene is.
+space is world space relative to the scene's centre, which keeps its boxes accurate in float32.
 """
 
 from __future__ import annotations
@@ -31,15 +30,15 @@ from .bvh16 import (
     tree_of_mesh,
 )
 
-# Bits of an instance: its vertices have normals, have colours; its transform changes angles, is the
-# identity; its material has a texture, is single-sided, has a cutout.
+# Bits of an instance. Its vertices have normals or colours; its transform changes angles, or is the
+# identity; its material has a texture, is single-sided, or has a cutout.
 HAS_NORMALS, HAS_COLORS, IS_STRETCHED, IS_UNMOVED, HAS_TEXTURE = 1, 2, 4, 8, 16
 IS_SINGLE_SIDED, HAS_HOLES = 32, 64
-_SQUASHED = 1e-6  # a transform that changes angles less counts as a similarity
-_NO_HIGHLIGHT = 2.0**-24  # relative to the light: a smaller highlight is lost in float32
+_SQUASHED = 1e-6  # a transform with a smaller change of angles counts as a similarity
+_NO_HIGHLIGHT = 2.0**-24  # relative to the light; smaller highlights are lost in float32
 _OUTWARDS = 4e-7  # relative to the coordinates: more than the rounding of bounds to float32
 _UNMOVED = np.eye(4)
-# The indices of a 3 x 3 matrix's numbers for its cofactors, row by row: each is a b - c d.
+# The indices of a 3 x 3 matrix's numbers for its cofactors a b - c d, row by row.
 _CROSSED = np.array(
     [
         [3 * ((i + m) % 3) + (k + n) % 3 for i in range(3) for k in range(3)]
@@ -137,14 +136,14 @@ class Instances:
                 trees[key] = self._trees.get(key) or tree_of_mesh(
                     mesh.vertices, mesh.faces, self._team
                 )
-        for entry in scene.objects:  # hidden ones keep theirs until they are shown
+        for entry in scene.objects:  # hidden objects keep their trees, too
             if entry.hidden and isinstance(entry.shape, Mesh):
                 key = _key(entry.shape)
                 if key in self._trees and key not in trees:
                     meshes.append(entry.shape)
                     trees[key] = self._trees[key]
-        # Assign only now, as building may be abandoned. Meshes are kept alive: their arrays' ids
-        # are the keys.
+        # Assign only now, because building may be abandoned. Keep the meshes alive, because their
+        # arrays' ids are the keys.
         self._trees, self._meshes = trees, meshes
         self._join()
 
@@ -258,9 +257,10 @@ def _attributes(meshes: list[Mesh], is_stretched: NDArray[np.bool_]) -> NDArray[
 def _normal_matrices(
     world_from_object: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-    """Return the cofactor matrices (n, 3, 3), and which of the transforms change angles (n,).
+    """Return the cofactor matrices (n, 3, 3), and a mask (n,) of transforms that change angles.
 
-    cross(M a, M b) = cofactor(M) cross(a, b). Scaled so that a similarity results in a rotation.
+    cross(M a, M b) = cofactor(M) cross(a, b). They are scaled so that a similarity results in a
+    rotation.
     """
     linear = world_from_object[:, :3, :3]
     rows = linear.reshape(-1, 9)

@@ -1,12 +1,12 @@
 """Splitting a BVH node in two: binned surface area heuristic, in-place partition.
 
-The builder sorts records: RECORD float32 for each primitive, in one flat array: -low x, y, z of its
-box, the bits of its number, high x, y, z, nothing. Since they are sorted in place, every pass over
-a node reads them sequentially.
+The builder sorts records, RECORD float32 for each primitive in one flat array: -low x, y, z of its
+box, the bits of its number, high x, y, z, and padding. Since they are sorted in place, every pass
+over a node reads them sequentially.
 
-With the low sides negated, the box around two boxes is one maximum of vectors. Bounds are a vector:
-a record's layout in the first half, and the same of the primitive's centre in the second half, -x,
-y, z and then x, y, z. Bins keep only boxes, in half vectors; the bounds of both halves of a node
+The low sides are negated, so that the box around two boxes is one maximum of vectors. Bounds are a
+vector: the first half is the box in a record's layout, and the second half bounds the centres in
+the same way. Bins keep only boxes, in half vectors; the bounds of both halves of a node
 are computed while its records are partitioned. Centres are doubled throughout (low + high), to
 avoid halving.
 
@@ -45,11 +45,13 @@ BINS = 16
 SAMPLE = 2048  # records sampled to find a split, if there are many more
 RECORD = 8
 NUMBER = 3  # a record's column, as int32, with the primitive's number and this bit:
-NUMBERED = 1 << 30  # small numbers alone would be denormal float32: three times as slow to bin
+NUMBERED = (
+    1 << 30
+)  # without it, small numbers would be denormal float32, three times as slow to bin
 HIGH = 4  # the column with the high x
 ROOM_OF_BINS = 3 * BINS * RECORD + 2 * LANES
 FAR = np.float32(3.4e38)
-_NODE_LEAVES = 14  # of 16 in a wide node (bvh16.py): few are full
+_NODE_LEAVES = 14  # leaves in a typical wide node of 16 (bvh16.py), since few are full
 _LOW_CENTRE, _HIGH_CENTRE = 8, 12  # lanes of bounds
 _CENTRES = 0xFF00  # the lanes of both
 
@@ -58,7 +60,7 @@ _CENTRES = 0xFF00  # the lanes of both
 def _bounds(records, i):
     """Return the bounds of record i."""
     box = load_half(records, RECORD * i)
-    # (-low) - high and high - (-low): the two signs of the centre.
+    # The centre with both signs is (-low) - high and high - (-low).
     return box - select(mask_of(_CENTRES), quarters_swapped(box), np.float32(0))
 
 
@@ -85,7 +87,7 @@ def _half_areas(left, right):
     both = lower_halves(left, right)
     extent = both + quarters_swapped(both)
     side = extent * next_of_three(extent)
-    # The sums side 0 + side 1 + side 2.
+    # Add the three products of two sides.
     one_on = next_of_three(side)
     return side + one_on + next_of_three(one_on)
 
@@ -137,7 +139,7 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
             _count_record(records, i, origin, scale, bins, counts)
 
     # The cost of a split is, for each side, its area times its number of leaves or, if there are
-    # many, of wide nodes, rounded up: half-empty ones take as long as full ones.
+    # many, of wide nodes. Round up, since half-empty ones take as long as full ones.
     is_small = end - start <= _NODE_LEAVES * leaf_size
     unit = 1.0 / (leaf_size if is_small else _NODE_LEAVES * leaf_size)
     best, best_axis, best_bin = FAR, -1, np.int64(-1)
@@ -147,7 +149,7 @@ def best_split(records, start, end, bounds, leaf_size, scratch):
     lefts, below = 3 * BINS * RECORD, 3 * BINS
     rights = lefts + LANES
     for axis in range(3):
-        # Sweep from both ends; the costs of all splits are then a vector.
+        # Sweep from both ends, which makes the costs of all splits a vector.
         first = axis * BINS
         left, right, n = splat(-FAR), splat(-FAR), np.int32(0)
         for b in range(BINS):

@@ -25,12 +25,12 @@ _has_failed = threading.Event()  # set once machine code could not be loaded or 
 
 
 def is_cached() -> bool:
-    """Return True if the cache has all that was compiled in this process."""
+    """Return True if the cache has all code compiled in this process."""
     return cache_folder() is not None and not _has_failed.is_set()
 
 
-# numba's passes, without those for what parts do not use: closures, `with`, array expressions and
-# counted references.
+# numba's passes, except those for features that parts do not use: closures, `with`, array
+# expressions and reference counting.
 _PASSES = (
     untyped_passes.TranslateByteCode,
     untyped_passes.FixupArgs,
@@ -69,13 +69,13 @@ class _PartCompiler(CompilerBase):
 def inlined(function: Callable[..., Any]) -> Any:
     """Decorate a function with loops or branches that is compiled as a part of kernels.
 
-    Straight-line ones compile in a fraction of the time if they are emitted (emit.py). It must not
-    create arrays or raise errors. Not fast-math: watertight intersection needs the operations in
-    the order written.
+    Straight-line functions compile in a fraction of the time if they are emitted (emit.py). The
+    function must not create arrays or raise errors. Fast-math is off, because watertight
+    intersection needs the operations in the order written.
 
-    With numba.njit, each function would be optimized and made machine code together with all that
-    it calls, and then again as a part of its callers. Here it stays LLVM's code, which is available
-    to kernels, and which LLVM optimizes where it is inlined.
+    numba.njit would optimize and compile each function together with all its callees, and then
+    again as a part of its callers. Here, it remains LLVM IR, which LLVM optimizes where it is
+    inlined into a kernel.
     """
 
     @cache
@@ -112,9 +112,9 @@ def inlined(function: Callable[..., Any]) -> Any:
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """Decorate a function that Python calls: compiled at its first call, run without the GIL.
+    """Decorate a function for Python that is compiled at its first call and runs without the GIL.
 
-    Use it only at module level, or the cache cannot find the function again. If the cache is
+    Use this only at module level, or the cache cannot find the function again. If the cache is
     damaged or its disk is full, the function is compiled without it.
     """
     compile_it = partial(numba.njit, nogil=True, error_model="numpy", no_cfunc_wrapper=True)

@@ -1,4 +1,4 @@
-"""The image-order kernel: it traces the image pixel by pixel, along one viewing ray each.
+"""The image-order kernel, which traces the image pixel by pixel, along one viewing ray each.
 
 Each thread of a team calls trace_image() with the same arguments; they share the blocks.
 """
@@ -26,11 +26,10 @@ from .vectors import cross, dot, minus, row
 
 @kernel
 def trace_image(view, scene, tree, image, control):
-    """Trace blocks of pixels until none are left, or the control array says to stop.
+    """Trace blocks of pixels until none are left, or the control array requests a stop.
 
     view: KernelView. scene: FlatScene. tree: Tree. image: Image, written.
-    control: see thread_pool.py. The
-    work's numbers are those of the blocks, row by row.
+    control: see thread_pool.py; its numbers are those of the blocks, row by row.
     """
     waiting = np.empty(tree.stack_size, np.int32)
     entered = np.empty(tree.stack_size, np.float64)
@@ -104,7 +103,7 @@ def write_pixel(scene, image, i, j, origin, direction, hit):
 
 @kernel
 def shade_rays(scene, origins, directions, t, primitives, light):
-    """Write the light that n rays with known hits bring, without shadows and mirrors.
+    """Write the light along n rays with known hits, without shadows and mirrors.
 
     origins, directions, light: (n, 3). t, primitives: (n,), as from closest_hits().
     """

@@ -1,6 +1,6 @@
 """The colour at a hit: the surface's normal, its albedo, and Blinn and Phong's shading.
 
-The same model as in shaders/. Linear light; arithmetic in float64.
+The model is the same as in shaders/. Colours are linear light; arithmetic is in float64.
 """
 
 from __future__ import annotations
@@ -74,7 +74,7 @@ def corners_of(faces, triangle):
 
 @inlined
 def turned(matrix, a):
-    """Return the world direction of one in an object's space."""
+    """Return the world direction of a direction a in an object's space."""
     x, y, z = row(matrix, FIRST), row(matrix, SECOND), row(matrix, THIRD)
     return dot(x, a), dot(y, a), dot(z, a)
 
@@ -90,7 +90,7 @@ def normals_at(scene, direction, point, primitive, b1, b2):
         return facing, _not_grazing(facing, direction)
     i, j, k = corners_of(scene.faces, primitive)
     a, b, c = row(scene.vertices, i), row(scene.vertices, j), row(scene.vertices, k)
-    # A mesh's vertices are in its own space; so are two edges, until they are turned.
+    # A mesh's vertices, and therefore two edges, are in its own space; turned() converts them.
     matrix = scene.world_from_object[object_of(scene.face_object, scene.sphere_object, primitive)]
     geometric = normalized(cross(turned(matrix, minus(b, a)), turned(matrix, minus(c, a))))
     facing = _facing(geometric, direction)
@@ -100,7 +100,7 @@ def normals_at(scene, direction, point, primitive, b1, b2):
         smooth = blend(1.0 - b1 - b2, n0, b1, n1, b2, n2)
         size = length(smooth)
         if size >= SHORTEST_MEAN:
-            # Normals that disagree with the winding are turned, for the whole triangle alike.
+            # Flip all of a triangle's normals if they disagree with its winding.
             turn = 1.0 if dot(plus(n0, plus(n1, n2)), geometric) >= OTHER_SIDE else -1.0
             if dot(geometric, direction) >= 0.0:
                 turn = -turn
@@ -130,8 +130,8 @@ def _not_grazing(normal, direction):
 
 @inlined
 def albedo_at(scene, number, point, geometric, primitive, b1, b2):
-    """Return the diffuse reflectance of object `number`: the material's, times its texture's
-    colour, or its checker's; times the vertices' colours."""
+    """Return the diffuse reflectance of object `number`: the material's times its texture's
+    colour, or its checker's, times the vertices' colours."""
     material = scene.materials[number]
     albedo = row(material, DIFFUSE_SHININESS)
     pattern = material[SPECULAR_CHECKERED, 3]
@@ -151,7 +151,7 @@ def albedo_at(scene, number, point, geometric, primitive, b1, b2):
 
 @inlined
 def specular_at(scene, number, point, primitive, b1, b2):
-    """Return the specular reflectance of object `number`: the material's, times its metal's."""
+    """Return the specular reflectance of object `number`: the material's times its metal's."""
     specular = row(scene.materials[number], SPECULAR_CHECKERED)
     first = np.int64(scene.textures[number, MORE, 0])
     if first >= 0:
@@ -171,8 +171,8 @@ def _place(scene, number, point, primitive, b1, b2):
 
 @inlined
 def passes(scene, direction, triangle, b1, b2):
-    """Return True if a ray passes a triangle that it meets: by a back that is not seen, or through
-    a hole.
+    """Return True if a ray passes a triangle that it hits: at an invisible back, or through a
+    hole.
     """
     number = scene.face_object[triangle]
     if scene.single_sided[number]:
@@ -194,7 +194,7 @@ def passes(scene, direction, triangle, b1, b2):
 
 @inlined
 def _is_other_cell(cells, point, geometric):
-    """Return True if the point is in a cell of odd number, just below the surface."""
+    """Return True if a point just below the surface is in an odd-numbered cell."""
     x, y, z = row(cells, FIRST), row(cells, SECOND), row(cells, THIRD)
     across = normalized((dot(x, geometric), dot(y, geometric), dot(z, geometric)))
     u = dot(x, point) + cells[FIRST, 3] - CELL_NUDGE * across[0]
@@ -226,8 +226,8 @@ def color_at(scene, direction, point, geometric, shading, primitive, b1, b2):
 
 
 class LightAt(NamedTuple):
-    """A light as a point sees it. to_light, half: the unit vectors l and h, 0 where there is none;
-    distance: to it, infinite if it is directional; n_dot_l, n_dot_h: cosines with the normal."""
+    """A light as seen from a point. to_light, half: the unit vectors l and h, 0 if undefined;
+    distance: infinite for a directional light; n_dot_l, n_dot_h: cosines with the normal."""
 
     to_light: tuple[float, float, float]
     distance: float
@@ -238,7 +238,7 @@ class LightAt(NamedTuple):
 
 @inlined
 def light_at(lamp, point, along, normal):
-    """Return the scene's light `lamp` as a point with a unit normal sees it.
+    """Return the scene's light `lamp` as seen from a point with a unit normal.
 
     along: the unit vector from the viewer. The probe has the same terms
     (app/ui/explaining/shading.py).

@@ -1,4 +1,4 @@
-"""The closest object along a ray, by walking the BVH; and whether there is any."""
+"""The closest object along a ray, found by walking the BVH."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class Tree(NamedTuple):
 
     middle: float64 (3,), the point of the world that bounds and shapes are relative to.
     bounds: float32 (nodes, 6), low x, y, z, high x, y, z of node 0, the root, and the others.
-    links: int32 (nodes, 2): (first child, 0), the second child being the next node; or, for a
-        leaf, (first shape, number of shapes).
+    links: int32 (nodes, 2): (first child, 0) for an inner node, whose second child is the next
+        node; (first shape, number of shapes) for a leaf.
     order: int32 (n,), the primitive number of each shape.
     shapes: float64 (n, 9), corners a, b, c of a triangle, or centre and radius of a sphere.
     triangles: primitives from this number on are spheres.
@@ -50,8 +50,8 @@ class Tree(NamedTuple):
 def closest_hit(tree, stack, origin, direction, t_min, t_max):
     """Return the closest hit along a ray: (t, primitive, b1, b2), or (inf, -1, 0, 0).
 
-    origin, direction: (3,) float64, world space; the direction need not be unit length; if
-    it is NaN, nothing is hit.
+    origin, direction: (3,) float64, world space; the direction need not be unit length. A
+    NaN direction hits nothing.
     A hit counts for t_min < t < t_max, 0 <= t_min. Of hits at the same t, the lowest primitive
     number wins, whatever the tree. b1, b2: barycentrics of a triangle's second and third corner.
     stack: scratch of the calling thread, int32 and float64 (tree.stack_size,): the nodes that wait,

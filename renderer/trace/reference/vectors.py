@@ -32,7 +32,7 @@ def transformed(m, at, p):
 
 @emitted
 def rotated(m, at, a):
-    """Return a direction, transformed likewise."""
+    """Return a direction a, transformed by the same rows without their translation."""
     return dot(triple(m, at), a), dot(triple(m, at + 4), a), dot(triple(m, at + 8), a)
 
 

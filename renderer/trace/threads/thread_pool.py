@@ -1,7 +1,7 @@
 """A team of threads that run one kernel together.
 
-This module needs no numba: a kernel is any function, which is useful if it releases the GIL and
-divides its work with a control array (atomic.py: for kernels).
+This module does not need numba. A kernel is any function, preferably one that releases the GIL and
+divides its work with a control array (see atomic.py).
 """
 
 from __future__ import annotations
@@ -32,12 +32,12 @@ def new_control() -> Control:
 
 
 def cancel(control: Control) -> None:
-    """Leave no work to be taken. May be called from any thread, at any time."""
+    """Withdraw the remaining work. Any thread may call this at any time."""
     control[NEXT] = CANCELLED
 
 
 def cancelled_control() -> Control:
-    """Return the control array of a launch that does nothing: to compile its kernel."""
+    """Return the control array of a launch that only compiles its kernel."""
     control = new_control()
     cancel(control)
     return control
@@ -70,8 +70,8 @@ class AbandonedError(Exception):
 class Team:
     """The calling thread and size - 1 helpers, which start on first use.
 
-    Used by one thread at a time, the team's owner. Helpers are daemon threads: the owner calls
-    close(). is_over: called before each kernel; returns True to abandon the work.
+    Only one thread at a time, the owner, may use a team. Helpers are daemon threads; the owner
+    calls close(). is_over: called before each kernel; returns True to abandon the work.
     """
 
     def __init__(self, size: int) -> None:
@@ -86,8 +86,8 @@ class Team:
     def run(self, kernel: Callable[..., Any], *args: Any, size: int | None = None) -> None:
         """Call kernel(*args) in each thread, or in `size` of them. Return when all have returned.
 
-        Raises a call's exception after all have ended; or AbandonedError, before any, if is_over()
-        is True.
+        Raises a call's exception after all have ended, or AbandonedError, before any call, if
+        is_over() returns True.
         """
         if self.is_over is not None and self.is_over():
             raise AbandonedError

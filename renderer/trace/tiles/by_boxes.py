@@ -1,9 +1,9 @@
 """A leaf's 16 triangles against the pixels in their own rectangles, with triangles in lanes.
 
-Most triangles of a dense mesh cover no pixel's centre, or one or two. Each lane steps through the
+Most triangles of a dense mesh cover the centres of at most two pixels. Each lane steps through the
 centres in the rectangle around its own triangle, row by row, so that 16 triangles are tested at
-once, each at a pixel of its own. The functions are evaluated by the same operations as in
-by_squares.py, to the same last bit: a pixel's result does not depend on the method.
+once, each at a different pixel. The functions are evaluated by the same operations as in
+by_squares.py, so a pixel's result is the same to the last bit with either method.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ from lucida.renderer.trace.vector.memory import store
 from .tile import TILE, keep_hits, nearest_key_of, pixel_points
 
 SMALL_PIXELS = np.float32(16)  # a rectangle with more is not small
-ROUND = 2  # pixels of each lane that are tested before hits are stored
-# Pixels around a rectangle: the edges of the triangle in it are rounded (footprint.py).
+ROUND = 2  # pixels that each lane tests before hits are stored
+# Margin in pixels around a rectangle, since the triangle's edges are rounded (footprint.py).
 _MARGIN_PX = np.float32(1 / 64)
-# The tip of a triangle that is thinner, relative to its length, might be rounded farther.
+# The tip of a triangle that is relatively thinner might be rounded farther.
 _THINNEST = np.float32(2.0**-10)
 _NEAREST = np.float32(1e-6)  # H of corners that are divided by it
 
@@ -52,7 +52,7 @@ class PixelBoxes(NamedTuple):
 
 @emitted
 def pixel_boxes(view, tile, pa, pb, pc):
-    """Return (PixelBoxes, small, other): which triangles may cover a few pixels, and which more.
+    """Return (PixelBoxes, small, other): masks of triangles that may cover a few pixels, or more.
 
     pa, pb, pc: the corners (X, Y, H), from the tile's first pixel, as is the tile.
     """
@@ -60,7 +60,7 @@ def pixel_boxes(view, tile, pa, pb, pc):
     is_used = pa[0] == pa[0]
 
     def divided():
-        # One division for three.
+        # Replace three divisions by one.
         (ax, ay, ha), (bx, by, hb), (cx, cy, hc) = pa, pb, pc
         is_ahead = vmin(vmin(ha, hb), hc) > _NEAREST
         ab = ha * hb
@@ -77,7 +77,7 @@ def pixel_boxes(view, tile, pa, pb, pc):
     across, down = right - left, bottom - top
     area = vabs(fma(bx - ax, cy - ay, -((by - ay) * (cx - ax))))
     is_sized = is_ahead & (area > _THINNEST * fma(across, across, down * down))
-    # Behind a lens, pixels are up to that far from the grid.
+    # Pixels behind a lens may be this far from the grid.
     boxes = PixelBoxes(
         _first(left - (_MARGIN_PX + (tile.x_high - last))),
         _last(right + (_MARGIN_PX - tile.x_low)),

@@ -1,7 +1,8 @@
 """A leaf's 16 triangles against a tile's 256 pixels, by the cheapest of three methods.
 
 A triangle is three edge functions and a key (triangle.py), which are affine in the image. The edge
-functions are set up once, with 16 triangles in lanes; keys only where a triangle may cover a pixel.
+functions are set up once, with 16 triangles in lanes; keys are set up only if some triangle may
+cover a pixel.
 When a leaf covers few pixels, each of them is tested against all triangles (by_pixels.py). Small
 triangles are tested at the pixels in their own rectangles (by_boxes.py), and large ones at the
 tile's squares (by_squares.py).
@@ -39,7 +40,7 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares, depth, le
 
     footprint: of the leaf's box; depth: the least Z in it. squares: bits, the squares of the
     footprint in which some pixel sees nothing nearer. least: the smallest of the pixels' best keys;
-    no pixel sees anything farther.
+    nothing farther is visible at any pixel.
     """
     own = from_first_pixel(tile)
     a, b, c = camera_corners(view, world.corner, leaf, space, tile, scratch)

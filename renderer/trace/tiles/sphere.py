@@ -2,10 +2,10 @@
 
 Along the ray o + t d, with f = o - centre in units of the radius, the sphere is where
     a t^2 - 2 b t + c = 0,   a = d . d,   b = -f . d,   c = f . f - 1.
-d and f are affine in the image point, and one of them is constant; so a, c and the discriminant
-b b - a c = a - |f x d|^2 are polynomials of degree 2, and b one of degree 1. They are set up in
-float64 around the first pixel of a square or a tile, where they are evaluated in float32: the
-outline (discriminant 0) is as exact in the narrowest view as in a wide one.
+d and f are affine in the image point, and one of them is constant. Therefore a, c and the
+discriminant b b - a c = a - |f x d|^2 are polynomials of degree 2, and b is one of degree 1. They
+are set up in float64 around the first pixel of a square or a tile, where they are evaluated in
+float32: the outline (discriminant 0) is as exact in the narrowest view as in a wide one.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ from .tile import (
 )
 from .view import ACROSS, DOWN, SHARED, VARYING
 
-_CHORD = np.float32(5e-7)  # relative: above the rounding errors of z and of the chord's middle
+_CHORD = np.float32(5e-7)  # relative; above the rounding errors of z and the chord's middle
 
 
 @emitted
 def sphere_ray(view, spheres, sphere, x, y):
     """Return (f, its changes across and down; d, its changes) at the image point (x, y), float64.
 
-    f in radii; d so that the parameter is Z.
+    f: in radii. d: scaled so that the parameter is Z.
     """
     radius = spheres[4 * sphere + 3]
     centre = triple(spheres, 4 * sphere)
@@ -119,10 +119,11 @@ def affine(p, x, y):
 
 @emitted
 def sphere_depths(equation, x, y):
-    """Return (near, far, mask): Z of the sphere's two points on each ray; mask: there are any.
+    """Return (near, far, mask): Z of the sphere's two points on each ray. mask: lanes that have
+    them.
 
-    Each root is computed in the form without cancellation: with q = b +- sqrt(discriminant), with
-    the sign of b, the roots are c / q and q / a (Haines et al., Ray Tracing Gems, 2019, ch. 7).
+    Each root is computed in the form without cancellation. If q = b +- sqrt(discriminant) takes the
+    sign of b, the roots are c / q and q / a (Haines et al., Ray Tracing Gems, 2019, ch. 7).
     """
     a, c = quadratic(equation[0], x, y), quadratic(equation[2], x, y)
     b, discriminant = affine(equation[1], x, y), quadratic(equation[3], x, y)
@@ -183,7 +184,7 @@ def key_at(view, z):
 
 @emitted
 def sphere_normal(view, spheres, sphere, points, z):
-    """Return outward unit normals of a sphere at a square's pixels, F32; z: the depths seen.
+    """Return outward unit normals of a sphere at a square's pixels, F32. z: the visible depths.
 
     Start at the ray's point nearest to the centre, d x (f x d) / a, and go half a chord back or
     forth: no large numbers are subtracted, however far away the sphere is.
@@ -204,9 +205,9 @@ def sphere_normal(view, spheres, sphere, points, z):
 
 @emitted
 def is_near_hit(z, middle):
-    """Return which pixels see a sphere's nearer hit. z: of the hit; middle: of the chord.
+    """Return which pixels see a sphere's nearer hit. z: the hit's; middle: the chord's.
 
-    Far away, where rounding makes all three one, the nearer is the one that is seen.
+    Rounding may make both hits and the middle equal far away; the nearer hit is then visible.
     """
     return z <= fma(vabs(middle), _CHORD, middle)
 

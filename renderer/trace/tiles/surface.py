@@ -1,9 +1,10 @@
-"""The surfaces that a square's 16 pixels see: normals, vertex colours, object and primitive.
+"""The surfaces at a square's 16 pixels: normals, vertex colours, object and primitive.
 
 The formulas are those of reference/shade.py, in float32 lanes.
 
-Most squares see one or two triangles. So the pixels are taken by triangle, whose numbers are loaded
-once and repeated in all lanes; of what is left after a few triangles, each lane gathers its own.
+Most squares show one or two triangles. The pixels are therefore processed triangle by triangle,
+whose numbers are loaded once and repeated in all lanes. After a few triangles, each remaining lane
+gathers its own numbers.
 """
 
 from __future__ import annotations
@@ -53,7 +54,7 @@ from .view import ACROSS, DOWN, SHARED, VARYING
 
 GRAZING = np.float32(shared_numbers.GRAZING)
 SHORTEST_MEAN_SQUARE = np.float32(shared_numbers.SHORTEST_MEAN**2)
-SINGLES = 3  # triangles that are taken one by one before the rest gather
+SINGLES = 3  # triangles processed one by one before the other lanes gather
 
 
 class SceneArrays(NamedTuple):
@@ -96,11 +97,12 @@ class Pixels(NamedTuple):
 class Surface(NamedTuple):
     """The surface at a square's pixels.
 
-    Unit normals, the triangle's and the one for shading, both on the viewer's side; the colour that
-    multiplies the material's: the vertices', times the texture's; and gloss, which multiplies the
-    specular colour. Three F32 each; 0, and gloss 1, where nothing is hit.
+    The fields are the unit normals of the triangle and for shading, both on the viewer's side; the
+    tint, vertex colour times texture, which multiplies the material's colour; and the gloss, which
+    multiplies the specular colour. Each has three F32; they are 0, and gloss 1, without a hit.
 
-    It is passed in registers: a vector is slow to load if some of its lanes were just stored.
+    It is passed in registers, because a vector is slow to load if some of its lanes were just
+    stored.
     """
 
     geometric: Any
@@ -142,7 +144,7 @@ def find_surfaces(
     """Return (Surface, objects, primitives) of a square's pixels; the numbers are I32, -1 for none.
 
     scene: SceneArrays. points: the pixels' image points; None for rays that are not the
-    view's. depth: of the hits, Z; for other rays, t. wants_primitives: False to leave the
+    view's. depth: Z of the hits, or t for other rays. wants_primitives: False to leave the
     primitives out.
     """
     seen = load(scratch.hit_slot, LANES * square)
@@ -203,7 +205,7 @@ def find_surfaces(
 def triangle_normals(world, slots, at, mask, scratch):
     """Return the triangles' normals in their own space, in the lanes of the mask.
 
-    slots: what the pixels see, also in memory as scratch.hit_slot[at :].
+    slots: the pixels' hits, also in memory as scratch.hit_slot[at :].
     """
     x, y, z = splat_lanes((0, 0, 0))
     left = bits(mask)
@@ -235,7 +237,7 @@ def instance_surface(
     """Return the Surface of one instance without its texture and gloss, and the pixels' texture
     coordinates; only the lanes of the mask are valid.
 
-    slots: what the pixels see, also in memory as scratch.hit_slot[at :].
+    slots: the pixels' hits, also in memory as scratch.hit_slot[at :].
     """
     # The geometric normal, in world space, on the viewer's side.
     x, y, z = triangle_normals(world, slots, at, mask, scratch)
@@ -271,7 +273,7 @@ def instance_surface(
                 tint = select_lanes(same, blended(scene.colors, vertices, weights), tint)
             places = between_vertices(scene.textures, same, vertices, weights, places)
             if wanted & HAS_NORMALS and have_normals(scene.normals, vertices):
-                # Normals that disagree with the winding are turned, for the triangle as a whole.
+                # Flip all of a triangle's normals if they disagree with its winding.
                 turn = side if agrees(scene.normals, vertices, geometric, lane) else -side
                 smooth = blended(scene.normals, vertices, weights)
                 usable = same & (dot_lanes(smooth, smooth) >= SHORTEST_MEAN_SQUARE)
@@ -298,7 +300,7 @@ def white():
 def bend_grazing(direction, mask, normal):
     """Return shading normals bent just enough to face the viewer, in the lanes of the mask."""
     cosine = dot_lanes(normal, direction)
-    # Few squares have any: cosine > -GRAZING |direction|, without the root.
+    # Few squares have any. Test cosine > -GRAZING |direction| without the root.
     close = cosine * cosine < dot_lanes(direction, direction) * (GRAZING * GRAZING)
 
     def bend():

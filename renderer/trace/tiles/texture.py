@@ -1,7 +1,7 @@
 """Textures on a square's 16 pixels, in float32 lanes.
 
-Texel coordinates between a triangle's vertices or on a sphere, wrapped, and the light of four
-texels. Scenes without textures are compiled without any of it. The formulas are
+This module computes wrapped texel coordinates between a triangle's vertices or on a sphere, and
+the light of four texels. Scenes without textures are compiled without any of it. The formulas are
 reference/texture.py's.
 """
 
@@ -43,8 +43,8 @@ _REPEAT = 0  # the wrap that is neither CLAMP nor MIRROR
 _U_WRAP = (1 << WRAP_BITS) - 1
 _PER_TURN, _PER_HALF_TURN = np.float32(0.5 / math.pi), np.float32(1 / math.pi)
 _SMALL = 1 << 22  # texels of an image that stays in the caches
-_FAR_APART = np.float32(8)  # texels: the next ones were loaded with these if they are nearer
-_PER_NEXT = np.float32(4 / 3)  # a square's width, per distance of its first and last columns
+_FAR_APART = np.float32(8)  # texels; if the next ones are nearer, they are already in the cache
+_PER_NEXT = np.float32(4 / 3)  # a square's width over the distance of its first and last columns
 _HALF, _ONE, _ZERO = np.float32(0.5), np.float32(1), np.float32(0)
 
 
@@ -67,7 +67,7 @@ def nowhere():
 
 @emitted
 def between_vertices(textures, mask, vertices, weights, places):
-    """Return the places, with those of one triangle's points in the lanes of the mask."""
+    """Return the places, after setting the mask's lanes to the points on one triangle."""
     a, b, c = vertices.a // 3 * 2, vertices.b // 3 * 2, vertices.c // 3 * 2
     return (
         _between(textures.uv, mask, a, b, c, weights, places[0]),
@@ -182,9 +182,9 @@ def _corner(images, at, first, places):
 
 @emitted
 def _ask_for_next(texels, images, at, first, places, stride):
-    """Prefetch the texels of the square to the right: those of a large image are in no cache.
+    """Prefetch the texels of the square to the right, since a large image's are in no cache.
 
-    Without this, a wall with a texture of 8192 x 4096 takes 19.6 ms in place of 14.6.
+    Without this, a wall with a texture of 8192 x 4096 takes 19.6 ms instead of 14.6.
     """
     width, height, wraps = images[at + 1], images[at + 2], images[at + 3]
     column, _right = _texel(_next(places[0]), f32(width), wraps & _U_WRAP)

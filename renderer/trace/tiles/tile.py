@@ -2,7 +2,7 @@
 
 A packet visits a node of the tree once for all of its 256 rays. Its rays fill a pyramid
 (perspective) or a prism (parallel) with four sides; a box entirely outside of one side is missed by
-all of them. One vector holds the same plane of a node's 16 boxes, so one test answers for all.
+all of them. One vector holds the same plane of a node's 16 boxes, so they are all tested at once.
 
 Sources: Reshetov, Soupikov and Hurley, "Multi-Level Ray Tracing Algorithm", 2005; Wald, Boulos and
 Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume Hierarchies", 2007.
@@ -43,17 +43,17 @@ _PIXELS = TILE * TILE
 
 # The fields of one thread's scratch memory, and their sizes; the last one is as large as the stack.
 _FLOATS = {
-    # Of a leaf's 16 triangles: three edge functions and a key, and the largest value of each in the
-    # tile's first square.
+    # A leaf's 16 triangles: three edge functions and a key each, and the largest value of each in
+    # the tile's first square.
     "coefficients": 12 * LANES,
     "bounds": 4 * LANES,
-    "keys": 2 * LANES,  # of triangles at pixels of their own (by_boxes.py)
+    "keys": 2 * LANES,  # of triangles at separate pixels (by_boxes.py)
     "depths": LANES,  # of a node's children
     "least": SQUARES,  # the least key of each square
     "best": _PIXELS,  # the best key of each pixel
-    "key_near": _PIXELS,  # behind a lens: what it must be below
+    "key_near": _PIXELS,  # behind a lens: the bound for keys
     "planes": 32,  # six, of four numbers
-    "rows": ROWS,  # of the space at work, from the tile's first pixel (view.py)
+    "rows": ROWS,  # of the current space, from the tile's first pixel (view.py)
     # A square's secondary rays.
     "origins": 3 * LANES,
     "directions": 3 * LANES,
@@ -69,7 +69,7 @@ _FLOATS = {
     "waiting_depths": 0,  # of the waiting nodes
 }
 _INTS = {
-    "hit_slot": _PIXELS,  # what each pixel sees: a slot, FIRST_SPHERE - k for sphere k, or NOTHING
+    "hit_slot": _PIXELS,  # each pixel's hit: a slot, FIRST_SPHERE - k for sphere k, or NOTHING
     "hit_instance": _PIXELS,
     "farthest": 32,  # the columns of a box that each plane needs
     "covered": LANES,  # the squares that each of a leaf's triangles may cover
@@ -78,7 +78,7 @@ _INTS = {
     # The triangle whose edges were used last, its slot and instance; and its edges, nine float64.
     "kept": 2,
     "kept_edges": 2 * LANES - 2,
-    # Behind a lens: the frame's number, the room before the scratch, and the frame's place among
+    # Behind a lens: the frame's number, the padding before the scratch, and the frame's place among
     # the tile's (lens_frame.py).
     "frame": LANES,
     "id": _PIXELS,
@@ -183,7 +183,7 @@ def pixel_point(view, tile, square, lane):
 def pixel_points(view, tile, column, row, mask):
     """Return (x, y, number in the tile) of a pixel in each lane; x and y as by coordinates().
 
-    column, row: F32, whole numbers. mask: of the lanes that are wanted.
+    column, row: F32, whole numbers. mask: the wanted lanes.
     """
     j, i, two = i32_of(column), i32_of(row), np.int32(2)
     inner, outer = np.int32(SQUARE - 1), np.int32(TILE - SQUARE)
@@ -206,8 +206,8 @@ def _first_point(tile, square):
 
 @emitted
 def clear_tile(view, tile, row, column, scratch):
-    """Reset the keys and hits. Mark pixels outside the image as done: nothing is nearer. Return the
-    tile's least key."""
+    """Reset the keys and hits. Mark pixels outside the image as done, so that nothing is nearer.
+    Return the tile's least key."""
     scratch.kept[0] = NOTHING
     nothing, lens = np.float32(np.inf), view.lens
     for square in range(SQUARES):
@@ -239,7 +239,7 @@ def nearest_key(view, square, scratch):
 
 @emitted
 def nearest_key_of(view, pixel, scratch):
-    """Return the same for one of the tile's pixels."""
+    """Return nearest_key() for one of the tile's pixels."""
     return view.key_near if view.lens is None else scratch.key_near[pixel]
 
 
@@ -334,7 +334,7 @@ def _set_plane(view, at, plane, function, scratch):
         scratch.farthest[3 * plane + axis] = (axis + 3 * i64(n >= 0)) * WIDTH
         w -= n * origin
         size += abs(n) * (extent + np.float32(2) * abs(origin))
-    # Never too small: no box is rejected by rounding.
+    # Round up, so that no box is rejected by rounding.
     scratch.planes[4 * plane + 3] = w + np.float32(5e-7) * size
 
 

@@ -2,12 +2,12 @@
 
 In homogeneous coordinates (X, Y, H) of the image, the function
     e(x, y) = (P x Q) . (x, y, 1)
-is 0 on the line through the corners P and Q and positive on one side: a pixel is covered where the
-three edges' functions have one sign, that of the triangle's volume. No corner is divided by its H,
+is 0 on the line through the corners P and Q and positive on one side. A pixel is covered if the
+three edges' functions have the sign of the triangle's volume. No corner is divided by its H,
 so nothing special happens where a triangle crosses the eye's plane. The key K of its plane is
 affine in (x, y) as well.
 
-Watertight: at an edge that two triangles share, both compute exactly opposite numbers, so that no
+The test is watertight: two triangles compute exactly opposite numbers at a shared edge, so that no
 pixel is on the outer side of both. Therefore the edge functions are built of sums and differences
 of the two corners, and evaluated by the same operations everywhere.
 
@@ -37,7 +37,7 @@ from .view import ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 DOUBTFUL = np.float32(8)
 EDGE_ON = np.float64(1e-13)
 # The nh of a thin triangle is a small difference of large terms, but its rounding hardly moves the
-# key on the triangle: nh and the volume, by which it is divided, have the same error.
+# key on the triangle, because nh and the volume, its divisor, have the same error.
 SLIVER = np.float32(1 / 8)
 # The error of an edge function, relative to its corners' distance from the image's middle.
 SPECK_PX, SPECK_ROUNDING = np.float64(1 / 64), np.float64(2.0**-21)
@@ -108,7 +108,7 @@ def _seen_from(view, tile, p):
 def camera_corners(view, corner, leaf, space, tile, scratch):
     """Return (X, Y, Z) of the corners a, b, c of a leaf's triangles, from the tile's first pixel.
 
-    Computed in float64 for views so narrow that float32 has no digits left for them.
+    They are computed in float64 for views so narrow that float32 has no digits left for them.
     """
 
     def exact():
@@ -130,8 +130,9 @@ def camera_corners(view, corner, leaf, space, tile, scratch):
 def edge_function(p, q):
     """Return the coefficients of x, y and 1 of the edge p to q; p, q: (X, Y, H).
 
-    (p + q) x (q - p) is twice p x q. The sum does not know the order of p and q, and the difference
-    changes its sign with it: exactly opposite results for the two triangles at the edge.
+    (p + q) x (q - p) is twice p x q. The sum does not depend on the order of p and q, and the
+    difference changes its sign with it, so the two triangles at the edge get exactly opposite
+    results.
     """
     dx, dy, dh = minus(q, p)
     sx, sy, sh = plus(p, q)
@@ -143,7 +144,8 @@ def key_function(view, a, b, c, ha, hb, hc):
     """Return (coefficients of x, y and 1 of the triangle's key, its volume, the volume's terms).
 
     The volume is that of the parallelepiped that the corners span with the eye, positive for one
-    side of the triangle; the third number is the sum of the sizes of its terms. Any type of vector.
+    side of the triangle; the third number is the sum of the sizes of its terms. Vectors of any type
+    are accepted.
     """
     x1, y1, h1 = b[0] - a[0], b[1] - a[1], hb - ha
     x2, y2, h2 = c[0] - a[0], c[1] - a[1], hc - ha
@@ -157,7 +159,7 @@ def key_function(view, a, b, c, ha, hb, hc):
     inverse = np.float32(1) / volume
 
     def parallel():
-        # Z is affine in (x, y), and takes the corners' values at them.
+        # Z is affine in (x, y), and interpolates the corners' values.
         z1, z2 = b[2] - a[2], c[2] - a[2]
         kx = (z2 * y1 - z1 * y2) * inverse
         ky = (z1 * x2 - z2 * x1) * inverse
@@ -174,10 +176,10 @@ def key_function(view, a, b, c, ha, hb, hc):
 def key_function_exact(view, corner, leaf, space, tile, pa, pb, pc):
     """Return (coefficients of the key, sign of the volume), computed in float64, then rounded.
 
-    The key is -inf for a triangle seen edge-on, and for one that is so small, or so far away, that
-    float32 makes one point of two of its corners, or one line of all three. pa, pb, pc: its corners
-    as for edge_function(), whose result then is 0 everywhere or only rounding: the triangle would
-    cover a line, or all of the image.
+    The key is -inf for a triangle seen edge-on, and for one so small or so far away that
+    float32 merges two of its corners into one point, or all three into one line. pa, pb, pc: its
+    corners as for edge_function(), whose result is then 0 everywhere or only rounding, so that the
+    triangle would cover a line or the whole image.
     """
     a, b, c = _camera_corners_exact(view, corner, leaf, space, tile)
     one = to_f64(splat(np.float32(1)))
@@ -204,7 +206,7 @@ def key_function_exact(view, corner, leaf, space, tile, pa, pb, pc):
 
 @emitted
 def _is_speck(tile, ax, ay, bx, by, cx, cy):
-    """Return which triangles are smaller than SPECK_PX and too thin for float32."""
+    """Return a mask of the triangles smaller than SPECK_PX and too thin for float32."""
     x1, y1, x2, y2 = bx - ax, by - ay, cx - ax, cy - ay
     x3, y3 = x2 - x1, y2 - y1
     square = vmax(vmax(fma(x1, x1, y1 * y1), fma(x2, x2, y2 * y2)), fma(x3, x3, y3 * y3))
@@ -225,7 +227,7 @@ def triangle_keys(view, corner, leaf, space, tile, a, b, c, ha, hb, hc, wanted):
     """Return (coefficients of x, y and 1 of the keys, signs of the volumes) in the lanes of
     `wanted`.
 
-    The key is -inf for a back that is not seen.
+    The key is -inf for an invisible back.
     """
     key, volume, terms = key_function(view, a, b, c, ha, hb, hc)
     sign = select(volume >= np.float32(0), splat(np.float32(1)), np.float32(-1))

@@ -1,8 +1,8 @@
 """The traversal of the two levels of trees by a tile's rays.
 
-The nodes that wait are a stack with the nearest on top, each with the least depth that anything in
-it can have, and with its footprint; a node is dropped if it begins behind everything that the
-pixels of its squares see.
+The waiting nodes are a stack with the nearest on top, each with a lower bound of the depths in it
+and with its footprint. A node is dropped if it begins behind everything visible at the pixels of
+its squares.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def push_children(view, children, child, node, top, scratch):
             squares = scratch.footprints[lane]
             if open_squares(view, squares, z, scratch) == 0:
                 continue
-        # Insertion sort: there are few.
+        # Insertion sort, since there are few.
         i = top
         while i > base and scratch.waiting_depths[i - 1] < z:
             node_below, footprint_below = scratch.waiting[2 * i - 2], scratch.waiting[2 * i - 1]
@@ -79,7 +79,7 @@ def push_children(view, children, child, node, top, scratch):
 
 @inlined
 def walk_world(view, world, tile, least, scratch):
-    """Trace the scene for the tile: the upper tree, spheres and instances. least: its
+    """Trace the scene for the tile: the upper tree, spheres and instances. least: the tile's
     least key."""
     space = world.instances
     _push(0, ANY_DEPTH, world.top, WHOLE_TILE, scratch)

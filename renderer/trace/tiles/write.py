@@ -1,8 +1,8 @@
 """The pixels of a tile: their colours and other channels, written into the image.
 
 A tile's picture is completed in the scratch, square by square. Then it is copied to the image in
-whole cache lines with non-temporal stores: through the caches, an image of 18 MB takes 2.4 times as
-long (17.2 ms in place of 7.0 of one thread).
+whole cache lines with non-temporal stores. Through the caches, an image of 18 MB takes one thread
+2.4 times as long (17.2 ms instead of 7.0).
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ def writing_stage(
 
 @kernel
 def prepare_writing(view, world, scene, effects, image, room):
-    """Fill the room. Return the address of write_tile's code."""
+    """Fill the room with the arguments. Return the address of write_tile's code."""
     always = pointers((view, world, scene, effects, image))
     return prepared(write_tile, always, pointer(room))
 
@@ -73,7 +73,7 @@ def write_tile(always, row, column, floats, ints):
     tile = new_tile(view, row, column, scratch)
     for square in range(SQUARES):
         draw_square(view, world, scene, effects, image, row, column, tile, square, scratch)
-    # One type for all, or the function would be compiled for each.
+    # Use one type for all, because each type would be compiled separately.
     one, three = np.int64(1), np.int64(3)
     if image.has_depth:
         to, picture = as_int32(image.depth), as_int32(scratch.depth)
@@ -93,7 +93,7 @@ def write_tile(always, row, column, floats, ints):
 @inlined
 def draw_square(view, world, scene, effects, image, row, column, tile, square, scratch):
     """Draw one square of the tile at (row, column) into the tile's picture."""
-    at = (square >> 2) * SQUARE * TILE + (square & 3) * SQUARE  # its first pixel there
+    at = (square >> 2) * SQUARE * TILE + (square & 3) * SQUARE  # its first pixel in the picture
     i, j = row + (square >> 2) * SQUARE, column + (square & 3) * SQUARE
     if i >= image.height or j >= image.width:
         return
@@ -144,8 +144,9 @@ def draw_square(view, world, scene, effects, image, row, column, tile, square, s
 
 @inlined
 def write_rows(view, tile, image, channel, numbers, row, column, picture, scratch):
-    """Copy the picture, so many numbers a pixel, to a channel; only the part inside the image, and
-    of a tile's later frames only their own pixels.
+    """Copy the picture, with `numbers` values per pixel, to a channel.
+
+    Only pixels inside the image are copied, and only their own pixels for a tile's later frames.
     """
     width = image.width
     rows, columns = lesser(TILE, image.height - row), lesser(TILE, width - column)

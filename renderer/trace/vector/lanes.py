@@ -76,7 +76,7 @@ def lane_row():
 
 
 def _of_vectors(emit: Callable, *values: Any) -> Any:
-    """Return emit(builder, *vectors), with numbers among the values made vectors, and its type."""
+    """Return emit(builder, *vectors), after converting numbers to vectors; and its type."""
     kind = common_kind(*(value.kind for value in values))
 
     def emit_widened(builder):

@@ -1,7 +1,7 @@
 """numba types for vectors of 16 lanes, with their operators.
 
 The types are F32, F64, I32 and MASK. This module also has the helpers that generate LLVM code for
-them. lanes.py has the functions, and explains the purpose.
+them. lanes.py has their functions, and explains their purpose.
 """
 
 from __future__ import annotations
@@ -96,7 +96,7 @@ def address_of(context: Any, builder: Any, array_type: Any, array: Any) -> Any:
 
 
 def first_address(builder: Any, array: Value) -> Any:
-    """Return the same for a Value."""
+    """Return the address of the first element of a Value's array."""
     return address_of(target().context, builder, array.kind, array.llvm)
 
 

@@ -65,7 +65,7 @@ def test_a_vector_may_begin_with_a_minus(word):
     ("words", "told"),
     [
         (["--target=1,2,3"], "--target: (1, 2, 3) is the eye itself; look at another point"),
-        (["--target=1,9,3"], "--up: (0, 1, 0) is along the view direction; choose another up"),
+        (["--target=1,9,3"], "--up: (0, 1, 0) is along the view direction; give another up"),
         (
             ["--target=0,0,0", "--u=1,0,0"],
             "--u: cannot be used together with --target; give one of the two",

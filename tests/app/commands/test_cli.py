@@ -127,7 +127,7 @@ class TestMistakes:
             ("render spheres -o a.png --mirrors 1", "add --renderer ray"),
             (
                 "render spheres -o a.png --threads 2",
-                "--threads: is no longer part of Lucida; Tracer(",
+                "--threads: is no longer part of Lucida; Tracer",
             ),
             ("render spheres -o a.png --exposure 1e9", "'1e9' is not an exposure"),
             ("render spheres -o a.png --renderer both", "--renderer: invalid choice: 'both'"),

@@ -158,7 +158,7 @@ MISTAKES = {
     "set.json -o a.nosuch": "--to: is missing; give one of",
     "set.json#0 -o no/a.toml": "no/a.toml: folder",
     "skewed.toml --to gltf --size 1200x800": "skewed.toml: w: (0, 0, 1) is "
-    "not with u and v at right angles, as gltf needs; make it orthonormal (Keep orthonormal, --up",
+    "not at right angles to the others, as gltf requires; make it orthonormal (Keep orthonormal",
     "parallel.toml --to opencv --size 9x9": "parallel.toml: ",
     "set.json#3": "set.json: holds no camera '3'; give a number from 0 to 2 or one of",
     "lens.json --to gltf -o a.gltf": "lens.json: a.lens: brown is a lens that gltf cannot hold",

@@ -39,8 +39,8 @@ def test_what_is_hidden_does_not_count(capsys):
         (["-o", "a.glb", "--u=-1,0,0"], "u: (-1, 0, 0) is left-handed"),
         (
             ["-o", "a.glb", "--u=1,0.5,0", "--v=0,1,0"],
-            "w: (0, 0.164399, 0.986394) is not with u and v at right angles, as "
-            "gltf needs; make it orthonormal (Keep orthonormal, --up, ",
+            "w: (0, 0.164399, 0.986394) is not at right angles to the others, as "
+            "gltf requires; make it orthonormal (Keep orthonormal, --up, ",
         ),
     ],
 )

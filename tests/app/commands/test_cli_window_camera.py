@@ -41,6 +41,6 @@ def test_a_photograph_is_laid_over_the_images(begun: list[Any], capsys: Any) -> 
     Path("broken.jpg").write_text("x")
     for name, problem in {
         "phot.png": "does not exist; check its name and folder",
-        "broken.jpg": "is no picture that can be read",
+        "broken.jpg": "is not a readable picture",
     }.items():
         assert f"{name}: {problem}" in refused(capsys, name)

@@ -83,7 +83,7 @@ def test_an_image_that_fails_leaves_nothing_broken(textures, monkeypatch):
     with monkeypatch.context() as full_memory:
         # Only here does a GPU that is full say so.
         full_memory.setattr(Targets, "_build", lambda *_: (_ for _ in ()).throw(moderngl.Error()))
-        with pytest.raises(LucidaError, match="choose a smaller image"):
+        with pytest.raises(LucidaError, match="select a smaller image"):
             textures.raster.read_back(wanted(size=OTHER_SIZE))
     np.testing.assert_array_equal(pixels(frame(textures, wanted())), before)
 

@@ -117,7 +117,7 @@ def test_only_the_object_is_to_be_moved(name, field, value):
     one = task()
     other = next(row.item for row in outline(one.scene) if row.shown == name)
     right, text = said(one, set_field(one.solved(one.scene), [other], field, value))
-    assert not right and text.startswith("Only the ball is to be moved")
+    assert not right and text.startswith("Move only the ball")
 
 
 def test_its_size_is_to_stay_and_its_colour_may_change():
@@ -132,9 +132,9 @@ def test_its_size_is_to_stay_and_its_colour_may_change():
 def test_what_was_added_or_deleted_is_told():
     one = task()
     more, _ = objects.add(one.scene, objects.new_table(one.scene, "box", (0, 0, 2), 2.0))
-    assert said(one, more)[1].startswith("Only the ball")
+    assert said(one, more)[1].startswith("Move only the ball")
     less = objects.delete(one.scene, [one.item])
-    assert said(one, less)[1].startswith("Only the ball")
+    assert said(one, less)[1].startswith("Move only the ball")
     with pytest.raises(LucidaError, match="no 'ball' any more; go back to the step"):
         one.solved(less)
 

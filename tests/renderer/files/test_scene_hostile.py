@@ -91,7 +91,7 @@ def test_view_files_too(tmp_path: Path) -> None:
     [
         (
             TRIANGLE + "f 1 2\n",
-            "line 4: 'f 1 2' is no line of an OBJ with 3 vertices; repair",
+            "line 4: 'f 1 2' is not valid in an OBJ with 3 vertices; repair",
         ),
         (TRIANGLE + "f 1 2 9\n", "line 4: 'f 1 2 9' is no line"),
         (TRIANGLE + "f 1 2 -4\n", "line 4: 'f 1 2 -4' is no line"),

@@ -88,8 +88,8 @@ def test_a_view_that_cannot_be_written_leaves_the_old_file(tmp_path: Path) -> No
         ("[camera]\nnear = -1", "v.toml: camera.near: -1 is not above 0"),
         ('[camera]\nprojection = "fish"', "v.toml: camera.projection: 'fish' is unknown"),
         ("[camera]\nfit = 1", "v.toml: camera.fit: is a whole number; give true or false"),
-        ("lucida = 2\n[camera]", "v.toml: lucida: the file is of version 2"),
-        ("lucida = true\n[camera]", "v.toml: lucida: True is no version"),
+        ("lucida = 2\n[camera]", "v.toml: lucida: the file has version 2"),
+        ("lucida = true\n[camera]", "v.toml: lucida: True is not a version"),
         ("camera = 3", "v.toml: camera: is a whole number; give a table"),
         ("[camera]\ntarget = [0, 0, 1]", "v.toml: camera.eye: is missing; give it"),
         (

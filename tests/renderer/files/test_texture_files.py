@@ -218,7 +218,7 @@ def test_a_texture_needs_places_on_a_mesh(tmp_path: Path) -> None:
     (tmp_path / "t.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     with pytest.raises(
         LucidaError,
-        match=r"objects\[0\]\.material: has a texture, and 't' of 't.obj' no texture coord",
+        match=r"objects\[0\]\.material: has a texture; 't' of 't.obj' has no texture coord",
     ):
         scene_file(tmp_path, "texture = 'a.png'", "type = 'model'\nfile = 't.obj'")
     mesh = Mesh(CORNERS, [(0, 1, 2)])
@@ -260,7 +260,7 @@ def test_scenes_with_textures_are_saved_where_their_images_are(tmp_path: Path) -
         assert texture is not None
         np.testing.assert_array_equal(texture.texels, noise(4, 4))
     (tmp_path / "other").mkdir()
-    with pytest.raises(LucidaError, match=r"materials\.m\.texture: 'a.png' does not lie in"):
+    with pytest.raises(LucidaError, match=r"materials\.m\.texture: 'a.png' is not in"):
         save_scene(tmp_path / "other" / "s.toml", scene)
     nowhere = Scene((SceneObject(Sphere(), Material(texture=Texture(noise(2, 2)))),))
     with pytest.raises(LucidaError, match="made in Python, or is inside"):

@@ -40,7 +40,7 @@ def test_a_scene_and_a_photograph_are_opened_together(photo):
 def test_what_is_no_picture_opens_nothing_but_the_others(photo, tmp_path):
     bad = tmp_path / "bad.jpg"
     bad.write_text("no picture")
-    with pytest.raises(LucidaError, match="is no picture that can be read"):
+    with pytest.raises(LucidaError, match="is not a readable picture"):
         open_sources([str(bad)])
     opened = open_sources([str(bad), str(photo)])
     assert opened.things == (OpenedPhotograph(str(photo)),)

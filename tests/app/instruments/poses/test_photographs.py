@@ -63,7 +63,7 @@ def test_what_is_no_picture_is_told(tmp_path: Path, data: bytes) -> None:
     (tmp_path / "a.png").write_bytes(data)
     found = read_photograph(with_images(tmp_path, "a.png"), 0)
     assert found.pixels is None
-    assert found.problem == "a.png is no picture that can be read."
+    assert found.problem == "a.png is not a readable picture."
 
 
 def test_they_are_read_in_a_thread_and_the_latest_is_kept(tmp_path: Path) -> None:

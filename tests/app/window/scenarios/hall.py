@@ -35,8 +35,8 @@ def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d):
     d.resize(SIZE)
 
     def look(name):
-        d.until(lambda: d.in_draw_lists(capital_heights))
-        heights = d.in_draw_lists(capital_heights)
+        while not (heights := d.in_draw_lists(capital_heights)):
+            d.settle()
         if small := below(heights, SIZE[1] / 50):
             low[name] = small
 

@@ -14,7 +14,7 @@ from lucida.app.ui.theme import framebuffer_scale
 
 SPOILED = (1, 9, 21, 30)  # steps with images, without, and with a resolution
 JUMPS = (0, 33, 3, 30, 1, 22, 12, 21, 2)
-VISITED = sorted({*SPOILED, *JUMPS, *range(0, 36, 3)})
+VISITED = sorted({*SPOILED, *JUMPS, *range(0, 36, 6)})
 STILL = 6  # frames in which a mark finds its image's size
 
 

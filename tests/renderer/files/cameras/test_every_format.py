@@ -132,9 +132,9 @@ def test_a_lens_measures_in_u_v_and_w() -> None:
 
 def test_a_camera_that_no_rotation_holds_is_refused() -> None:
     cases = {
-        "w: (0, 0, 1) is not with u and v at right angles, as gltf needs": SKEWED,
-        "u: (-1, 0, 0) is left-handed with v and w, a mirror that gltf has not; negate u": MIRRORED,
-        "w: (0.2, 0, 1) is not with u and v at right angles, as gltf needs": ASKANCE,
+        "w: (0, 0, 1) is not at right angles to the others, as gltf requires": SKEWED,
+        "u: (-1, 0, 0) is left-handed with v and w; gltf cannot mirror; negate u": MIRRORED,
+        "w: (0.2, 0, 1) is not at right angles to the others, as gltf requires": ASKANCE,
     }
     for problem, posed in cases.items():
         with pytest.raises(LucidaError) as raised:
