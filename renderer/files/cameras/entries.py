@@ -1,4 +1,4 @@
-"""The entries of other programs' files by name: checked numbers, sizes and poses, and unused keys."""
+"""Entries of other programs' files by name: checked numbers, sizes and poses, and unused keys."""
 
 from __future__ import annotations
 
