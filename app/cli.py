@@ -82,6 +82,7 @@ def _dispatch(arguments: list[str]) -> int:
     arguments = arguments if command is view else arguments[1:]
     parser = Parser(prog="lucida" if command is view else f"lucida {command.NAME}")
     command.configure(parser)
+    parser.set_defaults(commands=COMMANDS)  # for the completion, which describes all of them
     return int(command.run(parser.parse_args(arguments)))
 
 

@@ -29,9 +29,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
+    """arguments.commands: the modules of all commands."""
     import shtab
-
-    from . import COMMANDS
 
     class FileParser(Parser):
         """A parser whose words without fixed values are files."""
@@ -45,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     parser = FileParser(prog="lucida")
     commands = parser.add_subparsers(metavar="COMMAND")  # first: any other word is a scene
     view.configure(parser)
-    for command in COMMANDS:
+    for command in arguments.commands:
         command.configure(commands.add_parser(command.NAME, help=f"lucida {command.NAME}"))
     print(shtab.complete(parser, arguments.shell))
     if arguments.shell == "bash":  # complete files in the place of a command, too

@@ -84,13 +84,14 @@ def run(arguments: argparse.Namespace) -> int:
     from lucida.app.cameras.films.frames import with_z
     from lucida.renderer.compare.why_black import hits_nothing
     from lucida.renderer.images import check_image_path, write_image
-    from lucida.renderer.images.frame import stored
+    from lucida.renderer.images.frame import LARGEST_PIXELS, stored
 
     if arguments.renderer != "ray":
         check_effects(arguments)
     ending = check_image_path(arguments.output)
     scene, camera = common.scene_and_camera(arguments)
-    if is_in_parts(arguments):
+    width, height = arguments.size
+    if width * height > LARGEST_PIXELS or arguments.workers > 1 or arguments.scheduler:
         from .render_parts import render_in_parts
 
         return render_in_parts(scene, camera, arguments, ending)
@@ -100,7 +101,6 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.channel == "z":
         frame = with_z(frame, camera)
     write_image(arguments.output, frame, stored(arguments.channel), arguments.exposure)
-    width, height = frame.size
     print(
         f"{one_line(arguments.output)}: {arguments.channel}, {arguments.renderer}, "
         f"{width}x{height}, {1e3 * frame.time_s:.1f} ms"
@@ -108,15 +108,6 @@ def run(arguments: argparse.Namespace) -> int:
     if hits_nothing(frame):
         common.say_nothing_is_hit(scene, camera)
     return 0
-
-
-def is_in_parts(arguments: argparse.Namespace) -> bool:
-    """Return True for an image that is too large for memory, or for many processes."""
-    from lucida.renderer.images.frame import LARGEST_PIXELS
-
-    width, height = arguments.size
-    is_large: bool = width * height > LARGEST_PIXELS
-    return is_large or arguments.workers > 1 or bool(arguments.scheduler)
 
 
 def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
