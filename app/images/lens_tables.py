@@ -1,4 +1,4 @@
-"""The tables of lenses, made on a thread, so that no frame waits for those of a full image."""
+"""The tables of lenses, made on a thread, so that no frame waits for a full image's."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ Key = tuple[object, ...]
 
 
 class LensTables:
-    """Make the table of the request that was asked about last."""
+    """A maker of the table for the latest request."""
 
     def __init__(self) -> None:
         self._work: Background[Key] = Background("lucida-lens")
         self._ready: Key = ()
 
     def ready(self, request: ImageRequest) -> bool:
-        """Return True if the full image can be drawn at once. If not, its table is being made, and
-        the window is woken when it is there.
+        """Return True if the full image can be drawn at once. If not, its table is made, and the
+        window is woken when it is ready.
         """
         camera = request.camera
         if camera.lens is None:
             return True
         key = _key(camera, request.size, request.enlargement)
         if (outcome := self._work.poll()) is not None:
-            # What fails here fails again in drawing, which reports it.
+            # An error here recurs in drawing, which reports it.
             self._ready = key if outcome.value is None else outcome.value
         if key != self._ready:
             self._work.ask(_made, camera, request.size, request.enlargement)

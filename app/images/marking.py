@@ -1,8 +1,8 @@
-"""The marked pixel when the images change their size.
+"""Keep the marked pixel when the images change their size.
 
 The mark keeps its place on the image plane, and therefore its viewing ray, as closely as a pixel
-can; beyond the image's edge, it is the nearest pixel. It is always derived from where the user put
-it, so that many changes (a window that is being resized) do not move it away.
+can. Beyond the image's edge, it is the nearest pixel. It is always derived from the user's mark, so
+that it does not drift while a window is resized.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from lucida.renderer.scene.model import View
 class Anchor:
     """A mark as the user set it.
 
-    pixel, size: the marked pixel, and the size of its image; it may be outside. now: the same place
+    pixel, size: the marked pixel, perhaps outside, and the size of its image. now: the same place
     in an image of the size now_size.
     """
 
@@ -29,16 +29,17 @@ class Anchor:
     now_size: Size
 
     def is_of(self, marked: Pixel | None, marked_size: Size | None) -> bool:
-        """Return whether a mark is where this anchor has put it."""
+        """Return True if a mark is still where this anchor has put it."""
         return (self.now, self.now_size) == (marked, marked_size)
 
 
 def followed(
     marked: Pixel | None, marked_size: Size | None, anchor: Anchor | None, view: View, size: Size
 ) -> tuple[Pixel | None, Anchor | None]:
-    """Return the mark in an image of `size`, and its anchor. marked_size: of the image that it was
-    set in; None for the present one. A mark that is not where the anchor has put it was set anew,
-    or comes from a session or from undo."""
+    """Return the mark in an image of `size`, and its anchor. marked_size: of the image in which
+    it was set; None for the present one. A mark that differs from the anchor's was set again, or
+    comes from a session or from undo.
+    """
     if marked is None:
         return None, None
     if anchor is None or not anchor.is_of(marked, marked_size):
@@ -51,8 +52,8 @@ def followed(
 
 
 def moved(pixel: Pixel, size: Size, view: View, new_size: Size) -> Pixel:
-    """Return the pixel of an image of new_size that the viewing ray of a pixel of another size goes
-    through; the nearest one if there is none.
+    """Return the pixel of an image of new_size with the viewing ray of a pixel at another size, or
+    the nearest one.
     """
     if size == new_size:
         return pixel

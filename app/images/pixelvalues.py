@@ -1,6 +1,6 @@
 """The numbers in magnified pixels, and the colours behind them.
 
-Includes the display transform of a few hundred pixels on the CPU; the window's shader computes the
+The display transform of these few hundred pixels runs on the CPU; the window's shader computes the
 same.
 """
 
@@ -17,9 +17,9 @@ from lucida.renderer.images.frame import Frame, stored
 from lucida.renderer.images.shared_numbers import FARTHEST_GRAY
 
 Bytes = NDArray[np.uint8]
-Depths = tuple[float, float] | None  # that are shown white and darkest
+Depths = tuple[float, float] | None  # those shown white, and darkest
 
-DARK = 0.179  # of luminance: there black and white are as easy to read. Source: WCAG 2, contrast
+DARK = 0.179  # luminance at which black and white are equally legible. Source: WCAG 2, contrast
 
 
 def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes:
@@ -33,7 +33,7 @@ def shown_bytes(values: NDArray, options: ImageOptions, depths: Depths) -> Bytes
 
 
 def is_dark(shown: Bytes) -> NDArray[np.bool_]:
-    """Return where white is easier to read than black: (height, width)."""
+    """Return a mask (height, width) of pixels on which white is easier to read than black."""
     return from_srgb(shown) @ LUMINANCE < DARK
 
 

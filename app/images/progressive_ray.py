@@ -1,6 +1,6 @@
-"""The ray image of a moving camera, then with several samples per pixel, if requested.
+"""The ray image of a moving camera, and then, if requested, with several samples per pixel.
 
-The window's thread only leaves requests and takes images: it never waits for the tracer.
+The window's thread only requests and collects images, and never waits for the tracer.
 """
 
 from __future__ import annotations
@@ -22,22 +22,22 @@ from lucida.renderer.scene.model import Scene
 
 from .request import ImageRequest
 
-if TYPE_CHECKING:  # its import loads the compiler
+if TYPE_CHECKING:  # this import loads the compiler
     from lucida.renderer.trace import TraceJob, Tracer
 
-# How long an image may still take when something newer is requested: a coarse one is finished, so
-# that steady dragging always shows something new.
+# The time that an image may still take after a newer request. Coarse images have more, so that
+# steady dragging always shows something new.
 FULL_PATIENCE_S, COARSE_PATIENCE_S = 0.03, 0.1
 
-Wanted = tuple[ImageRequest, int]  # and how many times coarser; compared by identity
+Wanted = tuple[ImageRequest, int]  # a request and its factor, compared by identity
 
 
 @dataclass(frozen=True, eq=False)
 class RayImage:
     """A traced image.
 
-    factor: 1 for the full image, otherwise how much coarser each side is. frame: of the pixels'
-    centres, which is compared with the raster image. mean: the colour (H, W, 3) of several samples
+    factor: the coarseness, 1 for the full image. frame: of the pixels' centres, which is compared
+    with the raster image. mean: the colour (H, W, 3) of several samples
     per pixel, once there is one.
     """
 
@@ -47,9 +47,7 @@ class RayImage:
     mean: NDArray[np.float32] | None = None
 
     def is_beside(self, raster: ImageRequest) -> bool:
-        """Return True if it may be shown next to the raster image of a request: both have the same
-        camera.
-        """
+        """Return True if it has the camera of a request, whose raster image may be next to it."""
         mine = self.request
         return mine.may_stand_in_for(raster) and mine.camera == raster.camera
 
@@ -64,11 +62,10 @@ class RayImage:
 
 
 class LiveTrace:
-    """Traces the newest request.
+    """A thread that traces the newest request.
 
-    wake: called on its thread when there is something new. make_tracer: returns a Tracer for a
-    request; called on that thread. begin: called there first. Requests and polls come from one
-    thread, the window's.
+    wake: called on the thread for each new result. make_tracer: returns a Tracer for a request;
+    called on the thread. begin: called on it first. Only the window's thread requests and polls.
     """
 
     def __init__(
@@ -82,8 +79,8 @@ class LiveTrace:
         self._begin = begin
         self._changed = threading.Condition()
         self._newest: Wanted | None = None
-        self._served: Wanted | None = None  # the last one begun
-        self._finished: Wanted | None = None  # the last one whose image came, or failed
+        self._served: Wanted | None = None  # the last request begun
+        self._finished: Wanted | None = None  # the last request that has an image or an error
         self._arrived: RayImage | None = None
         self._job: TraceJob | None = None
         self._cancels = False  # whether a newer request cancels the job at once
@@ -97,7 +94,7 @@ class LiveTrace:
     # The window's side.
 
     def request(self, request: ImageRequest, factor: int = 1) -> None:
-        """Request an image, `factor` times coarser. Does nothing if that was requested last."""
+        """Request an image, `factor` times coarser, unless it was requested last."""
         with self._changed:
             if self._closed or (request, factor) == self._newest:
                 return
@@ -114,7 +111,7 @@ class LiveTrace:
 
     @property
     def busy(self) -> bool:
-        """True while the newest request's image is still to come."""
+        """True until the newest request's image is ready."""
         with self._changed:
             return self._arrived is not None or self._newest is not self._finished
 
@@ -128,15 +125,13 @@ class LiveTrace:
         """Request the newest image again if it has failed."""
         with self._changed:
             if self._error is not None and self._newest is not None:
-                self._newest = self._newest[0], self._newest[1]  # another object: not served yet
+                self._newest = self._newest[0], self._newest[1]  # a new tuple counts as not served
                 self._error = None
                 self._changed.notify()
 
     @property
     def preparing_s(self) -> float:
-        """The time that the first image of a scene has been awaited while the tracer prepares; else
-        0.
-        """
+        """The time since the tracer began to prepare a scene's first image; 0 otherwise."""
         with self._changed:
             return time.monotonic() - self._began_s if self._began_s else 0.0
 
@@ -149,14 +144,14 @@ class LiveTrace:
     def tracer_of(self, scene: Scene) -> Tracer | None:
         """Return the tracer that has prepared a scene, for other rays; None until there is one.
 
-        It moves on to the next scene when that changes, and is closed when the effects do: a late
-        question is answered for the next scene, or raises an error.
+        The tracer switches to the next scene, and is closed if the effects change. A late query is
+        answered for the next scene, or raises an error.
         """
         ready = self._ready
         return ready[1] if ready is not None and ready[0] is scene else None
 
     def close(self, timeout_s: float = 2.0) -> None:
-        """Cancel everything. A compilation cannot be cancelled: its daemon thread ends with the
+        """Cancel all work. A compilation cannot be cancelled; its daemon thread ends with the
         process.
         """
         with self._changed:
@@ -166,7 +161,7 @@ class LiveTrace:
             self._changed.notify()
         self._thread.join(timeout_s)
 
-    # Its thread's side.
+    # The thread's side.
 
     def _run(self) -> None:
         if self._begin is not None:
@@ -179,7 +174,7 @@ class LiveTrace:
                 if made_for is None or request.scene is not made_for.scene:
                     self._prepare()
                     if tracer is not None:
-                        tracer.set_scene(request.scene)  # what has not changed stays prepared
+                        tracer.set_scene(request.scene)  # unchanged parts stay prepared
                 if tracer is None or not request.is_served_by(made_for):
                     self._prepare()
                     if tracer is not None:
@@ -187,7 +182,7 @@ class LiveTrace:
                     tracer = self.make_tracer(request)
                 made_for, self._ready = request, (request.scene, tracer)
                 self._trace(tracer, wanted)
-            except BaseException as error:  # shown in the window, which goes on
+            except BaseException as error:  # the window shows it, and continues
                 tracer, self._ready = None, None
                 with self._changed:
                     self._job, self._began_s = None, 0.0
@@ -197,7 +192,7 @@ class LiveTrace:
             tracer.close()
 
     def _prepare(self) -> None:
-        """Record the start of another scene or Tracer, whose first image may take long."""
+        """Record the start of a new scene or Tracer, whose first image may take long."""
         self._ready = None
         with self._changed:
             self._began_s = time.monotonic()
@@ -212,7 +207,7 @@ class LiveTrace:
             return self._newest
 
     def _trace(self, tracer: Tracer, wanted: Wanted) -> None:
-        """Trace an image, unless a newer request comes that does not wait for it."""
+        """Trace an image, unless a newer request arrives that does not wait for it."""
         request, factor = wanted
         job = tracer.start(request.camera, reduced(request.size, factor), CHANNELS)
         patience_s = FULL_PATIENCE_S if factor == 1 else COARSE_PATIENCE_S
@@ -230,7 +225,7 @@ class LiveTrace:
             self._supersample(tracer, wanted, frame)
 
     def _supersample(self, tracer: Tracer, wanted: Wanted, centres: Frame) -> None:
-        """Trace the colour again with several samples per pixel, unless a newer request comes."""
+        """Trace the colour again with several samples per pixel, unless a newer request arrives."""
         request, _ = wanted
 
         def draw(
@@ -266,7 +261,5 @@ class LiveTrace:
 
 
 def _as_exception(error: BaseException) -> Exception:
-    """Return the exception for the window; a thread that is asked to end goes on like any that
-    fails.
-    """
+    """Return the exception for the window. SystemExit and its like count as failures, too."""
     return error if isinstance(error, Exception) else RuntimeError(f"ended by {error!r}")

@@ -22,9 +22,9 @@ T = TypeVar("T")
 Range = tuple[float, float]
 EVERYWHERE: Range = (0.0, math.inf)
 _Question = tuple[Hashable, Scene]  # compared by identity
-_Answer = tuple[_Question, T | None, Exception | None]  # neither, if it was given up
-AT_ONCE = 1 << 14  # rays: other jobs can run in between
-PATIENCE_S = 0.15  # pictures that are done sooner come, though newer ones are asked for: in motion
+_Answer = tuple[_Question, T | None, Exception | None]  # neither if abandoned
+AT_ONCE = 1 << 14  # rays per job; other jobs can run in between
+PATIENCE_S = 0.15  # faster pictures appear despite newer requests, as in motion
 
 
 class RayPainter:
@@ -58,7 +58,7 @@ class RayPainter:
     def hits(
         self, origins: ArrayLike, directions: ArrayLike, t_range: Range = EVERYWHERE
     ) -> NDArray[np.float32]:
-        """Return where rays (n, 3) end, (n,), in units of their directions; inf for no hit.
+        """Return the t (n,) at which rays (n, 3) end, in units of their directions; inf for no hit.
 
         Raises UnwantedError.
         """
@@ -69,10 +69,10 @@ class RayPainter:
 
 
 class RayPictures(Generic[T]):
-    """Makes pictures on its own thread; a newer request replaces a waiting one.
+    """A maker of pictures on its own thread; a newer request replaces a waiting one.
 
-    wake: called from that thread when a picture is there. error: of the newest request. Use it on
-    the window's thread.
+    wake: called on that thread when a picture is ready. error: of the newest request. The window's
+    thread uses it.
     """
 
     def __init__(self, name: str, wake: Callable[[], None]) -> None:
@@ -86,19 +86,18 @@ class RayPictures(Generic[T]):
     def follow(
         self, key: Hashable, scene: Scene, live: LiveTrace, make: Callable[[RayPainter], T]
     ) -> T | None:
-        """Return the last picture of the scene, which is used until the newest comes; None before
-        the first.
+        """Return the scene's last picture, until a newer one is ready; None before the first.
 
-        Call once a frame. key: what `make` depends on in addition to the scene; nothing is made
-        again while both stay. make: called on the thread.
+        Call this once a frame. key: the inputs of `make` except the scene; nothing is made again
+        while both stay the same. make: called on the thread.
         """
         self._poll()
         newest = self._newest
         if newest is not None and not are_versions(newest[1], scene):
-            self._made = None  # of another scene: stale
+            self._made = None  # stale, of another scene
         if newest is None or newest[0] != key or newest[1] is not scene:
             tracer = live.tracer_of(scene)
-            # Wait for one that is being prepared: two would take twice the memory.
+            # Wait for a tracer that is being prepared, since two would take twice the memory.
             self._waits = tracer is None and live.preparing_s > 0
             if not self._waits:
                 question = self._newest = key, scene
@@ -108,11 +107,11 @@ class RayPictures(Generic[T]):
 
     @property
     def busy(self) -> bool:
-        """True while the last request is wanted and has no answer."""
+        """True while the last request is wanted and has no picture."""
         return self._waits or (self._newest is not None and self._background.busy)
 
     def forget(self) -> None:
-        """Drop all pictures, also those in progress, because nobody looks any more."""
+        """Drop all pictures, also those in progress, because no view shows them."""
         self._newest, self._waits, self._made, self.error = None, False, None, None
 
     def close(self) -> None:
@@ -132,7 +131,7 @@ class RayPictures(Generic[T]):
         elif question is self._newest:
             self.error = error
             if error is None:
-                self._newest = None  # the tracer has moved on to another scene: request it again
+                self._newest = None  # the tracer has another scene now, so request again
 
     def _make(
         self, question: _Question, tracer: Any | None, make: Callable[[RayPainter], T]

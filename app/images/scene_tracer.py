@@ -1,8 +1,8 @@
-"""Tracers in this process: the one for the window's images; and, for other rays in a background
-thread, that one while it has prepared the scene, or another. It may move on to another scene at any
-moment.
+"""Tracers in this process, for the window's images and for other rays on background threads.
 
-Imports the tracer on first use: that loads the compiler.
+Other rays use the window's tracer if it has prepared their scene, or else another tracer. The
+window's may change to another scene at any moment. The tracer is imported on first use, because
+that loads the compiler.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ T = TypeVar("T")
 
 
 def tracer_for(request: ImageRequest) -> Tracer:
-    """Make the tracer that a request needs; called on the tracing thread."""
+    """Return a new tracer for a request. Call this on the tracing thread."""
     from lucida.renderer.trace import Tracer
 
     mirror_depth = MIRROR_DEPTH if request.mirrors else 0
@@ -29,14 +29,14 @@ def tracer_for(request: ImageRequest) -> Tracer:
 
 
 class UnwantedError(Exception):
-    """Something newer was requested, or the tracer has moved on to another scene."""
+    """A newer result was requested, or the tracer has changed to another scene."""
 
 
 def of_scene(tracer: Any, scene: Scene, work: Callable[[], T]) -> T:
-    """Return what work() finds with a tracer, all of it in this scene.
+    """Return the result of work() with a tracer, if all of it is in this scene.
 
-    Raises UnwantedError if the tracer has moved on meanwhile, even if it has come back: what it hit
-    there may be no part of this scene at all.
+    Raises UnwantedError if the tracer has changed scenes meanwhile, even if it has come back,
+    because its hits may not be part of this scene.
     """
     number = tracer.scenes
 

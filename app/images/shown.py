@@ -1,10 +1,10 @@
 """An image on its way to the screen: its look, and the visible part.
 
-A picture is drawn again only if something has changed.
+A picture is drawn again only if its inputs have changed.
 
-ImGui samples every texture linearly. A picture of exactly its size on the screen comes out exact,
-so that enlarged pixels are squares and nothing is blurred; of a magnified image, only the visible
-part is drawn.
+ImGui samples every texture linearly. A picture of exactly its size on the screen is therefore
+reproduced exactly, with square enlarged pixels and no blur. Only the visible part of a magnified
+image is drawn.
 """
 
 from __future__ import annotations
@@ -22,20 +22,20 @@ from .placement import Placement, Size
 
 @dataclass(frozen=True, eq=False)
 class DepthBounds:
-    """The depths from white to the darkest gray, on the GPU: a new object for each measurement."""
+    """The depths from white to the darkest gray, on the GPU; each measurement has a new object."""
 
     texture: moderngl.Texture
 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """The visible part of an image. made: another object whenever something else was drawn."""
+    """The visible part of an image. made: an object that is new whenever the content is."""
 
     texture: moderngl.Texture
     made: object
 
 
-# A texture as Display.show() takes it, and another object whenever other pixels are in it.
+# A texture for Display.show(), and an object that is new whenever the texture's pixels are.
 Source = tuple[moderngl.Texture, object]
 
 
@@ -70,7 +70,7 @@ class Pictures:
     ) -> Picture:
         """Return the visible part of an image in a window.
 
-        name: of the picture: the next call with the same name overwrites it. The texture stays
+        name: of the picture, which the next call with the same name overwrites. The texture stays
         until the frame after the next, even if another replaces it. source: of the look's channel.
         """
         section = section_of(placement, source[0].size)
@@ -80,7 +80,9 @@ class Pictures:
         return Picture(target.texture, made)
 
     def begin_frame(self) -> None:
-        """Release what the frame before the last may still have shown. Call once a frame."""
+        """Release textures that the frame before the last may have shown. Call this once a
+        frame.
+        """
         for picture in self._retired:
             picture.release()
         self._retired.clear()
@@ -95,7 +97,7 @@ class Pictures:
         """Return the target of a picture."""
         picture = self._pictures.get(name)
         if picture is None or picture.texture.size != size:
-            # The window may show the old one in this very frame: its name must not be used again.
+            # The window may show the old one in this frame, so its OpenGL name must not be reused.
             if picture is not None:
                 self._retired.append(self._pictures.pop(name))
             picture = _Target(self._gl, new_texture(self._gl, size, 4, "uint8"))
@@ -119,9 +121,9 @@ def _show(
 def section_of(placement: Placement, texels: Size) -> Section:
     """Return the part of an image's texture for a target of the visible part's size.
 
-    texels: (width, height) of the texture: less than the image's if that is coarse. Take the
-    nearest texel if pixels are magnified to whole squares, or stand for several; take the mean over
-    a screen pixel if several pixels share it, wholly or in part.
+    texels: (width, height) of the texture, less than the image's if that is coarse. The nearest
+    texel is used if pixels are magnified to whole squares, or represent several; otherwise, the
+    mean over a screen pixel is used.
     """
     left, top, *_ = placement.visible
     per_pixel = texels[0] / placement.extent[0], texels[1] / placement.extent[1]

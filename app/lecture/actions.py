@@ -63,7 +63,7 @@ LECTURE = (
     ),
     Action(
         "Lecture",
-        "Continue where it was left",
+        "Continue where you left off",
         lambda w: w.view(LectureView).go_on(w),
         "End",
         can=lambda w: w.view(LectureView).was_left,

@@ -12,7 +12,7 @@ from .foot import foot
 from .session import LectureSession
 
 CONTROLS_S = 2.0  # until controls disappear after the mouse stops
-DIGITS = 3  # of a step's number
+DIGITS = 3  # most digits of a step's number
 
 
 class Controls:
@@ -28,7 +28,7 @@ class Controls:
         return time.monotonic() - self._moved_s < CONTROLS_S or bool(self._typed)
 
     def follow(self, host: Host) -> int | None:
-        """Follow mouse and digits. Call once a frame. Return the step, from 0, that was entered."""
+        """Handle the mouse and digits. Call this once a frame. Return the entered step, from 0."""
         io = imgui.get_io()
         popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         has_moved = host.moves and (io.mouse_delta.x or io.mouse_delta.y)

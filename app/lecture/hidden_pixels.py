@@ -12,7 +12,7 @@ from lucida.renderer.system.errors import LucidaError, errors_as
 from .hiding import HideExercise, Ids
 from .model import Lecture
 
-SIZE = (960, 720)  # of the images that answers are tried in
+SIZE = (960, 720)  # of the images in which answers are tried
 
 
 def ids_seen(scene: Scene, camera: Camera, size: tuple[int, int]) -> Ids:
@@ -25,8 +25,8 @@ def ids_seen(scene: Scene, camera: Camera, size: tuple[int, int]) -> Ids:
 
 
 def first_wrong_answer(lecture: Lecture) -> LucidaError | None:
-    """Return an error for the first exercise whose answer is wrong, or which is solved before
-    anything is moved; None if all are correct.
+    """Return an error for the first exercise with a wrong answer, or one that is solved from the
+    start; None if all are correct.
     """
     for build in lecture.builds:
         if isinstance(build.exercise, HideExercise):
@@ -42,7 +42,7 @@ def _check(task: HideExercise) -> None:
     alone = task.pixels(task.without, ids_seen(task.without, camera, SIZE))
     if not alone:
         problem = f"{task.hidden!r} is not in the picture"
-        raise LucidaError("hidden", problem, "put it before the step's camera")
+        raise LucidaError("hidden", problem, "put it in front of the step's camera")
     if task.check(task.scene, ids_seen(task.scene, camera, SIZE), alone).right:
         problem = f"{task.hidden!r} is hidden before anything is moved"
         raise LucidaError("object", problem, "put the object elsewhere in the scene")

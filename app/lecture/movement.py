@@ -1,7 +1,7 @@
 """States of the window between two states, as a pure function of time.
 
-Cameras take the path of animation.py; numbers with a fraction change evenly with it. Everything
-else, such as switches, words and counts, changes when the movement begins.
+Cameras follow the path of animation.py, and floats change in proportion. All other values, such as
+switches, words and counts, change when the movement begins.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from lucida.renderer.camera.checks import Vector
 from lucida.renderer.scene.focus import Focus
 from lucida.renderer.scene.model import View
 
-SIZE = 16, 9  # of an image that is not shown
+SIZE = 16, 9  # of a hidden image
 
 
 class Movement:
@@ -34,7 +34,7 @@ class Movement:
         self._passages: dict[tuple[View, View], Passage] = {}
 
     def at(self, part: float, eased: bool = True) -> AppState:
-        """Return the state at 0 to 1 of the time; at 1 it is the end.
+        """Return the state at a fraction of the time, 0 to 1; 1 is the end.
 
         eased: slower at both ends.
         """
@@ -47,7 +47,7 @@ class Movement:
         )
 
     def _mixed(self, start: Any, end: Any, s: float) -> Any:
-        """Return the value of a field between two values; the end if there is none."""
+        """Return the value of a field between two values, or the end if there is none."""
         if start == end:
             return end
         if isinstance(start, Camera) and isinstance(end, Camera):
@@ -74,8 +74,8 @@ class Movement:
 
 
 def _shared_frame(one: Camera, two: Camera) -> Vector | None:
-    """Return the middle of the image plane's rectangle if both cameras have it in one place, where
-    it stays while the eye moves.
+    """Return the middle of the image rectangle if both cameras share it, so that only the eye
+    moves.
     """
     frame = plane_corners(one)
     if not np.allclose(frame, plane_corners(two)):

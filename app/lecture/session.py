@@ -1,6 +1,6 @@
 """An open lecture: its current step, its answers, and changes of its file.
 
-This module also has its form in a session file, and reads a changed lecture again.
+This module also defines its entry in a session file, and rereads a changed lecture.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class LectureSession:
     path: its file.
     watch: of this file and the files that it names.
     error: the reason why a newer version cannot be read, for the user.
-    left: the sitting before, if it ended at another step, until the user goes on.
+    left: the previous session, if it ended at another step, until the user continues.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class LectureSession:
     def resumed(cls, kept: KeptLecture) -> LectureSession:
         """Return the lecture at its step, read again. Raises LucidaError.
 
-        In a file that has changed meanwhile it is at the step of the same title; the replies to
+        If the file has changed meanwhile, its step is the one with the same title, and replies to
         answers are dropped.
         """
         path = Path(restored(kept.file)) if kept.file else BUILTIN
@@ -60,11 +60,11 @@ class LectureSession:
         return session
 
     def left_at(self, kept: KeptLecture) -> int:
-        """Return the number of the step at which a sitting ended."""
+        """Return the number of the step at which a session ended."""
         return self.lecture.nearest(kept.title, kept.number)
 
     def go_on(self, kept: KeptLecture) -> None:
-        """Go to the step at which a sitting ended, with its answers."""
+        """Go to the step at which a session ended, with its answers."""
         self._at, self.left = self.lecture.place(self.left_at(kept), kept.build), None
         changed = self.differs_from(kept)
         for title, answers in kept.answers.items():
@@ -72,11 +72,11 @@ class LectureSession:
             self._answers[title] = replace(answers, texts=dict(answers.texts), verdict=verdict)
 
     def differs_from(self, kept: KeptLecture) -> bool:
-        """Return True if the file is not the one that was kept."""
+        """Return True if the file differs from the kept one."""
         return self._fingerprint != kept.fingerprint
 
     def kept(self, state: AppState) -> KeptLecture:
-        """Return what a session file keeps. state: the window's."""
+        """Return the entry for a session file. state: the window's."""
         answers = {
             title: replace(one, texts=dict(one.texts))
             for title, one in self._answers.items()
@@ -105,7 +105,7 @@ class LectureSession:
 
     @property
     def place(self) -> tuple[str, int, int]:
-        """The lecture, the step and the build, as states name them."""
+        """The lecture, the step and the build, as in AppState."""
         return self.lecture.source, self.step.number, self.step.build
 
     @property
@@ -118,7 +118,7 @@ class LectureSession:
         return self._to(self.lecture.place(number, build))
 
     def walk(self, builds: int) -> bool:
-        """Go some builds on, or back. Return True if that leads to another one."""
+        """Go some builds forward, or back. Return True if the build changes."""
         return self._to(min(max(self._at + builds, 0), len(self.lecture.builds) - 1))
 
     def _to(self, place: int) -> bool:
@@ -130,8 +130,8 @@ class LectureSession:
         return True
 
     def take(self, lecture: Lecture) -> None:
-        """Continue in a newer version, at the same step. Replies to questions that are no longer
-        the same, or count pixels in another way, are dropped; typed texts stay.
+        """Continue in a newer version, at the same step. Replies to questions that have
+        changed, or count pixels differently, are dropped; typed texts stay.
         """
         before, after = (
             {step.title: step.exercise for step in one.builds} for one in (self.lecture, lecture)
@@ -147,7 +147,7 @@ class LectureSession:
 
 
 def _file(path: Path) -> str:
-    """Return a lecture's file as sessions keep it."""
+    """Return a lecture's file for a session file."""
     return "" if path == BUILTIN else stored(str(path.absolute()))
 
 
@@ -170,7 +170,7 @@ def reread(session: LectureSession) -> LectureReread:
     try:
         with session.watch.reading():
             lecture = load_lecture(session.path, agreed)
-    except Exception as error:  # shown below the text, which stays
+    except Exception as error:  # shown below the old text
         return LectureReread(session, None, describe(error))
     mistake = first_mistake(lecture.formulas)
     return LectureReread(session, lecture, "" if mistake is None else str(mistake))

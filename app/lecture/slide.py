@@ -17,12 +17,12 @@ from .flow import Backdrop, Laid, Piece, PieceSize, Placed, lay
 from .text import Block
 
 ASCENT = 0.78  # of the line's height, in all our fonts
-# Relative to the window's type size: a step's title, and its text, as large as fits.
+# Sizes relative to the window's type: a step's title, and its text, of which the largest that fits.
 TITLE, LARGER = 1.5, (1.4, 1.3, 1.2, 1.1)
 
 
 class Slides:
-    """A painter of texts, which keeps the last layouts, because they take long to find.
+    """A painter of texts that keeps the last layouts, because they take long to compute.
 
     larger: the size of the texts' type, relative to the window's.
     """
@@ -30,7 +30,7 @@ class Slides:
     def __init__(self, fonts: Fonts) -> None:
         self._fonts = fonts
         self.larger = 1.0
-        self.lit = ""  # the stage of the growing formula whose term is pointed out
+        self.lit = ""  # the stage of the growing formula whose term is highlighted
         self._lay = functools.lru_cache(256)(self._laid)
 
     def text(
@@ -43,8 +43,8 @@ class Slides:
     ) -> None:
         """Draw a text at the cursor.
 
-        before: the part of it that does not fade in; None for all.
-        alpha: of the rest.
+        before: the part that does not fade in; None for all.
+        alpha: the opacity of the rest.
         """
         laid, corner = self._of(blocks, width), imgui.get_cursor_screen_pos()
         old = laid if before is None else self._of(before, width)
@@ -61,8 +61,8 @@ class Slides:
         return self._of(blocks, width).height
 
     def fit(self, texts: Iterable[tuple[Block, ...]], width: float, height: float) -> None:
-        """Set the largest size at which each text fits, and breaks no formula and no line of code
-        that the window's own size does not break.
+        """Set the largest size at which each text fits, without breaking a formula or a line of
+        code that the window's own size does not break.
         """
         for self.larger in (*LARGER, 1.0):
             if all(self._fits(blocks, width, height) for blocks in texts):
@@ -125,7 +125,7 @@ class Slides:
                 draw.add_text(at, theme.u32(ink), piece.text)
 
     def _vector_color(self, word: str, ink: ImVec4) -> ImVec4:
-        """Return the colour of a word: vectors have the same colours as in formulas."""
+        """Return the colour of a word; vectors have the same colours as in formulas."""
         color = vector_colors().get(word.strip(".,:;()"))
         return ink if color is None else theme.legible(color)
 

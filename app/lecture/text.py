@@ -1,4 +1,4 @@
-r"""Markdown with formulas, into blocks to draw.
+r"""Parse Markdown with formulas into blocks to draw.
 
 A lecture may use headings (#), paragraphs, lists (- or 1.), code (```), questions to the class (>),
 **bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. \$ is a dollar sign. Other
@@ -84,7 +84,7 @@ Block = Heading | Paragraph | Question | ItemList | Code | DisplayedFormula
 
 
 class TextError(LucidaError):
-    """A mistake in a text. line: where, 0 for the text's first line."""
+    """A mistake in a text. line: its line, 0 for the first one."""
 
     def __init__(self, line: int, problem: str, remedy: str) -> None:
         super().__init__("", problem, remedy)
@@ -99,14 +99,14 @@ RULES = (
     *("heading", "list", "fence", "blockquote", "emphasis", "link"),
     *("backticks", "escape", "newline"),
 )
-# Escaped signs stay apart from the text, where a $ is a formula that does not end.
+# Keep escaped signs separate, because a $ in the text is a formula that does not end.
 _MARKDOWN = (
     MarkdownIt("zero")
     .enable(RULES)
     .disable("text_join")
     .use(dollarmath_plugin, allow_labels=False, double_inline=True)
 )
-LETTERS = 50_000  # of a text; a slide has some hundred
+LETTERS = 50_000  # of a text; a slide has several hundred
 
 
 @lru_cache(256)
@@ -124,7 +124,9 @@ def parse(text: str) -> tuple[Block, ...]:
 
 
 def extended(text: str, more: str) -> str:
-    """Return a text with more below it. A list at its end continues in a list that begins it."""
+    """Return a text with more below it. A list at the text's end continues in one at the beginning
+    of `more`.
+    """
     return f"{text.rstrip()}\n\n{more.lstrip()}"
 
 
@@ -169,7 +171,7 @@ def _block(node: SyntaxTreeNode, lines: list[str]) -> Block:
 
 
 def _line(node: SyntaxTreeNode) -> Line:
-    """Return a block's text as one line, neighbours of one style as one run."""
+    """Return a block's text as one line, merging neighbours of one style."""
     spans: list[Span] = []
     for inner in node.walk():
         start = inner.map[0] if inner.map else 0
@@ -206,7 +208,7 @@ def _spans(
 
 
 def _merged(spans: Iterable[Span]) -> Iterator[Span]:
-    """Yield the spans, neighbours of one style as one."""
+    """Yield the spans, merging neighbours of one style."""
     for style, group in itertools.groupby(spans, lambda span: isinstance(span, Words) and span[1:]):
         if not style:
             yield from group

@@ -1,6 +1,6 @@
 """The guided lecture: a column of text next to the views that a step shows.
 
-The view has the open lecture, and puts the window into the state of a step. column.py draws texts
+The view holds the open lecture, and puts the window into the state of a step. column.py draws texts
 and exercises, controls.py the foot; model.py defines a step, step_options.py its state.
 """
 
@@ -35,16 +35,16 @@ from .session import LectureReread, LectureSession, reread
 from .step_options import own, state_of
 
 LECTURE = "Lecture"
-# For a text over a picture: its width relative to the window's, and its background's opacity.
+# A text over a picture: its width relative to the window's, and its background's opacity.
 OVER, GROUND = 0.68, 0.85
-STACKED = 1.5  # the window's width in its heights, below which two pictures are stacked
+STACKED = 1.5  # width / height of the window below which two pictures are stacked
 UPRIGHT = {"stepper"}  # views that need their height
 
 
 class LectureView(Instrument):
     """The view "Lecture". views: all views; the steps of a lecture show the others.
 
-    log: keeps what is answered, if the user asked for it.
+    log: keeps the answers, if the user asked for it.
     """
 
     name = LECTURE
@@ -57,14 +57,14 @@ class LectureView(Instrument):
         self._reading: Background[LectureReread] | None = None
         self._column: Column | None = None
         self._arranged = True
-        self._entered = False  # whether the step's state has been taken
-        self._before: AppState | None = None  # what the window showed when the lecture began
+        self._entered = False  # True if the step's state is set
+        self._before: AppState | None = None  # the state when the lecture began
         self._put_off: tuple[KeptLecture, KeptLecture, str] | None = None
         self._begun = False
-        self.arrangements = 0  # how often the views have been put into their places
-        self._layout = ""  # the one that was shown when the lecture began
-        self._lies_over = False  # the text, in the last frame
-        self._is_stacked = False  # one picture above the other, likewise
+        self.arrangements = 0  # number of times that the views were arranged
+        self._layout = ""  # the layout when the lecture began
+        self._lies_over = False  # the text was over the picture in the last frame
+        self._is_stacked = False  # one picture was above the other
         self.log: AnswerLog | None = None
         self._controls = Controls()
         self._drawn_answer = DrawnAnswer()
@@ -93,7 +93,7 @@ class LectureView(Instrument):
     ) -> None:
         """Begin a lecture at a build of a step, in the next frame.
 
-        left: the sitting before, at whose step the lecturer may go on.
+        left: the previous session, at whose step the lecturer may continue.
         """
         self.session = LectureSession(lecture, path, at, left)
         self._entered, self._put_off = False, None
@@ -111,12 +111,12 @@ class LectureView(Instrument):
     def put_off(self, kept: KeptLecture, scene: str) -> None:
         """Keep a lecture that cannot be read now in the session until another one is opened.
 
-        scene: the scene that is shown instead of its step's.
+        scene: the scene shown in place of its step's.
         """
         self._put_off = replace(kept, in_step=False), kept, scene
 
     def kept(self, state: AppState) -> KeptLecture | None:
-        """Return what a session file keeps of the lecture."""
+        """Return the lecture's entry for a session file."""
         if self.session is not None:
             return self.session.kept(state)
         if self._put_off is None:
@@ -125,13 +125,13 @@ class LectureView(Instrument):
         return kept if source_of(state.scene) == scene else elsewhere
 
     def take_answered(self) -> bool:
-        """Return True if something was answered since the last call."""
+        """Return True if an answer was given since the last call."""
         answered, self.column.answered = self.column.answered, False
         return answered
 
     def leave(self, window: Host) -> None:
-        """End the lecture, in the default layout and type. Bring back the scene and the view from
-        before, unless the user has opened another scene since.
+        """End the lecture, in the default layout and type. Restore the previous scene and view,
+        unless the user has opened another scene since.
         """
         if self.session is None:
             return
@@ -154,8 +154,8 @@ class LectureView(Instrument):
             self._enter(window)
 
     def read_again(self, window: Host, title: str) -> None:
-        """Go to the last build, which has the whole text, of the step of a title in the open
-        lecture, or in the built-in one, which begins.
+        """Go to the last build, which has the whole text, of the step with a title: in the open
+        lecture, or in the built-in one, which then begins.
         """
         number = None if self.session is None else self.session.lecture.number_of(title)
         if self.session is not None and number is not None:
@@ -167,19 +167,17 @@ class LectureView(Instrument):
 
     @property
     def was_left(self) -> bool:
-        """True if the lecture can go on where the sitting before ended."""
+        """True if the lecture can continue where the previous session ended."""
         return self.session is not None and self.session.left is not None
 
     def go_on(self, window: Host) -> None:
-        """Go to the step at which the sitting before ended."""
+        """Go to the step at which the previous session ended."""
         if self.session is not None and self.session.left is not None:
             self.session.go_on(self.session.left)
             self._enter(window)
 
     def advance(self, window: Host, builds: int) -> None:
-        """Go to the next build (1), or to the one before (-1). End a movement that is under way
-        instead.
-        """
+        """Go to the next build (1) or the previous one (-1), or else end a current movement."""
         if self.session is None or window.end_movement():
             return
         before = self.session.step
@@ -241,7 +239,7 @@ class LectureView(Instrument):
 
     @property
     def is_entering(self) -> bool:
-        """True while a step's views must still be put into their places."""
+        """True until a step's views have been arranged."""
         return self.session is not None and not (self._entered and self._arranged)
 
     def begin(self, host: Host, context: moderngl.Context) -> None:
@@ -255,15 +253,17 @@ class LectureView(Instrument):
             self._column.hidden_watch.close()
 
     def follow(self, host: Host) -> None:
-        """Handle new steps and newer files. Call once a frame, also while the view is hidden."""
+        """Handle new steps and newer files. Call this once a frame, even while the view is
+        hidden.
+        """
         if self.session is None:
             return
         division = self._is_over(host), is_stacked(self.session.step.views, layout.window_px())
         if division != (self._lies_over, self._is_stacked):
             self._lies_over, self._is_stacked = division
             self._arrange()
-        if not self._entered:  # visible from the last row, however it began
-            if host.state.step is None:  # otherwise one lecture follows another
+        if not self._entered:  # the lecture becomes visible
+            if host.state.step is None:  # not if one lecture follows another
                 self._before, self._layout = host.state, layout.current().name
             self.restore(host, presentation=True)
             self._begun = True
@@ -278,7 +278,7 @@ class LectureView(Instrument):
             layout.arrange(self._others, dict(zip(names, spaces, strict=False)))
             self.arrangements += 1
             self._arranged = True
-            imgui.set_nav_cursor_visible(False)  # it was on an item that has gone
+            imgui.set_nav_cursor_visible(False)  # its item no longer exists
             host.animate()
         self._follow_file(host, self.session)
 

@@ -49,7 +49,7 @@ def _lines(formulas: tuple[str, ...], text: str) -> Iterator[int]:
     """
     pieces = list(_SOLID.finditer(text))
     solid = "".join(piece[0] for piece in pieces)
-    ends = list(accumulate(len(piece[0]) for piece in pieces))  # of the pieces, in `solid`
+    ends = list(accumulate(len(piece[0]) for piece in pieces))  # ends of the pieces in `solid`
     at = line = counted = 0
     for latex in formulas:
         bare = f"${''.join(_SOLID.findall(latex))}$"

@@ -1,4 +1,4 @@
-"""The formulas of a page, as MathML in templates: the book's notation, as the probe has it."""
+"""The formulas of a page as MathML in templates, in the book's notation like the probe's."""
 
 from __future__ import annotations
 

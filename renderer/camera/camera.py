@@ -1,4 +1,4 @@
-"""The camera: from pixels to rays, and the same rays as a rasterizer's matrices.
+"""The camera: maps from pixels to rays, and a rasterizer's matrices for the same rays.
 
 Pixels are (i, j) = (row, column), 0-based, row 0 at the top. Sizes are (width, height).
 Matrices are float64 (4, 4) for column vectors, named destination_from_source.
@@ -40,7 +40,7 @@ from .intrinsics import Intrinsics, as_camera_from_world, camera_fields, check_f
 from .lenses import Lens, check_lens
 
 # The near clip of an object that extends behind the eye, relative to its farthest t. GL clips in
-# float32: with a nearer plane, the rest of a long triangle might be behind the eye.
+# float32, so the rest of a long triangle might be behind the eye with a nearer plane.
 NEAREST = 1e-6
 
 
@@ -182,10 +182,10 @@ class Camera:
     def _angle_deg(self, axis: int) -> float:
         """Return the angle between two edges of the viewport, on its line x = 0 or y = 0.
 
-        With a lens, it is summed up along the part of the line that the lens sees.
+        With a lens, it is summed up along the part of the line within the lens.
         """
         low, high = self.viewport[2 * axis : 2 * axis + 2]
-        if self.lens is None:  # plain Python: the window asks in each frame
+        if self.lens is None:  # plain Python, because the window needs it in each frame
             along = tuple(zip((self.u, self.v)[axis], self.w, strict=True))
             a, b = ([x * e - self.distance * back for e, back in along] for x in (low, high))
             return math.degrees(math.atan2(math.hypot(*cross(a, b)), dot(a, b)))
@@ -233,8 +233,8 @@ class Camera:
         return Ray(np.broadcast_to(np.asarray(self.eye), direction.shape), direction)
 
     def z_from_t(self, t: ArrayLike, size: Size, part: Part = WHOLE) -> Floats:
-        """Return the distances z along -w, in units of w, of the ray parameters t of a part of the
-        pixels: both (rows, columns). It is infinite where t is.
+        """Return the distances z along -w, in units of w, for the ray parameters t of a part of the
+        pixels, both (rows, columns). Infinite t have infinite z.
         """
         ahead = self.distance if self.lens is None else -self.lens_directions(size)[*part, 2]
         with np.errstate(invalid="ignore"):  # outside of the lens
@@ -290,9 +290,8 @@ class Camera:
     def project(self, points: ArrayLike, size: Size) -> Projected:
         """Return the pixels and ray parameters of world points (..., 3): the inverse of ray().
 
-        row and column are 0-based, with the pixels' centres at integers. In perspective they are
-        NaN for points that are not in front of the eye (parameter <= 0), or that the lens does not
-        see.
+        row and column are 0-based, with the pixels' centres at integers. In perspective, they are
+        NaN for points outside the lens, or not in front of the eye (parameter <= 0).
         """
         matrix = self.camera_from_world
         x, y, z = np.moveaxis(np.asarray(points, float) @ matrix[:3, :3].T + matrix[:3, 3], -1, 0)
@@ -315,7 +314,9 @@ class Camera:
 
     @property
     def camera_from_world(self) -> Floats:
-        """The inverse of world_from_camera, read-only; no transpose: the basis may be skewed."""
+        """The inverse of world_from_camera, read-only; no transpose, since the basis may be
+        skewed.
+        """
         return inverse(self.eye, self.u, self.v, self.w)
 
     def image_from_world(self, size: Size) -> Floats:
@@ -376,8 +377,8 @@ class Camera:
         return replace(self, viewport=(left, right, end, first))
 
     def shifted(self, rows: float, columns: float, size: Size) -> Camera:
-        """Return this camera shifted: it sees at pixel (i, j) what it saw at (i + rows, j +
-        columns). For several samples per pixel.
+        """Return this camera shifted for supersampling: its ray of pixel (i, j) is the old one of
+        (i + rows, j + columns).
         """
         left, right, bottom, top = self.viewport
         dx, dy = columns / size[0] * (right - left), -rows / size[1] * (top - bottom)

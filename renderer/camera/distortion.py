@@ -28,7 +28,7 @@ class Distortion:
     """Radial, tangential and thin-prism distortion of a plane.
 
     above, below: polynomials in r^2, whose quotient scales a point. end: the radius up to which the
-    radial part rises. The map is used from the middle outwards up to its first fold: at `end`, or,
+    radial part rises. The map is valid from the middle outwards to its first fold: at `end`, or,
     with other than radial terms, at `_folds`, which depends on the angle.
     """
 
@@ -49,7 +49,9 @@ class Distortion:
         return np.where(seen, a, np.nan), np.where(seen, b, np.nan)
 
     def inverse(self, a: Floats, b: Floats) -> Point:
-        """Invert the radial part in one variable; from there, all of it by Newton in two."""
+        """Invert the radial part in one variable, and then the whole map by Newton's method in
+        two.
+        """
         target = np.hypot(a, b)
         radius = self._inverse_radius(target)
         if self.is_radial:
@@ -60,7 +62,7 @@ class Distortion:
         x, y = np.full(a.shape, np.nan), np.full(a.shape, np.nan)
         near = self._may_reach(a, b)
         x[near], y[near] = self._newton(a[near], b[near], (a * scale)[near], (b * scale)[near])
-        # Newton's method may fail near a fold: follow the point outwards from the middle.
+        # Newton's method may fail near a fold, so follow the point outwards from the middle.
         left = np.flatnonzero(near & ~self._hits(a, b, x, y))
         near_x, near_y = np.zeros(left.size), np.zeros(left.size)
         for part in np.linspace(0, 1, 33)[1:]:
@@ -132,7 +134,8 @@ class Distortion:
     def _inverse_radius(self, target: Floats) -> Floats:
         """Return the radii that are distorted to `target`; NaN if none is.
 
-        Newton, within an interval of a table; a step that leaves the interval is a bisection.
+        Newton's method runs within an interval of a table; a step that leaves it becomes a
+        bisection.
         """
         end, most = min(self.end, FARTHEST), float(np.nanmax(target, initial=0.0))
         if self.end > FARTHEST:
@@ -183,7 +186,7 @@ class Distortion:
         (xx, xy), (yx, yy) = self._slopes(x, y)
         da, db, turned = at_a - a, at_b - b, xx * yy - xy * yx
         new_x, new_y = x - (yy * da - xy * db) / turned, y - (xx * db - yx * da) / turned
-        # A step out of the lens ends at its border.
+        # A step beyond the lens ends at its border.
         length = np.hypot(new_x, new_y)
         scale = np.minimum(1.0, self._end_at(new_x, new_y) / np.maximum(length, 1e-300))
         return new_x * scale, new_y * scale

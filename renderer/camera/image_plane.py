@@ -21,7 +21,7 @@ Part = tuple[slice, slice]  # rows, columns
 WHOLE: Part = slice(None), slice(None)
 Viewport = tuple[float, float, float, float]
 
-LARGEST_KEPT = 1 << 21  # pixels of a lens's directions that are kept: 48 MB
+LARGEST_KEPT = 1 << 21  # pixels whose directions through a lens are kept: 48 MB
 
 
 def has_pixel(size: Size, pixel: Pixel) -> bool:
@@ -62,7 +62,7 @@ def image_point(
 
 
 def seen_through(lens: Lens, x: Floats, y: Floats, distance: float) -> Floats:
-    """Return the directions (..., 3) that a lens shows at points; NaN outside of it."""
+    """Return the directions (..., 3) through a lens at points; NaN outside it."""
     right, down, ahead = lens.direction(x / distance, -y / distance)
     return np.stack([right, -down, -ahead], axis=-1) * distance
 
@@ -86,8 +86,8 @@ def _all_seen_through(lens: Lens, viewport: Viewport, distance: float, size: Siz
 
 
 def points_across(lens: Lens, axis: int, low: float, high: float, distance: float) -> Floats:
-    """Return points (2, 129) of the line y = 0 (axis 0) or x = 0 (axis 1), from low to high, as far
-    as the lens sees.
+    """Return points (2, 129) of the line y = 0 (axis 0) or x = 0 (axis 1), from low to high, within
+    the lens.
     """
     ends = sorted((1 - 2 * axis) * end * distance for end in lens.ends(axis))
     points = np.zeros((2, 129))

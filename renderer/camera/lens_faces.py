@@ -1,8 +1,8 @@
-"""The pinhole images in which a rasterizer sees what a lens shows.
+"""The pinhole images by which a rasterizer draws the image of a lens.
 
 No projection matrix describes a lens. A rasterizer therefore draws pinhole images, called faces:
-one if that sees everything that the lens sees, otherwise up to six faces of a cube around the
-eye. Each pixel of the lens's image looks up the texel of a face in which its ray ends.
+one if it contains the lens's whole image, otherwise up to six faces of a cube around the eye. Each
+pixel of the lens's image looks up the texel of a face in which its ray ends.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from .image_plane import LARGEST_KEPT, Size
 from .lenses import Lens
 
 WIDEST = 2.0  # one pinhole image reaches to this tangent: 63 degrees from its axis
-MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # of a face; of all faces
+MOST_SIDE, MOST_TEXELS = 8192, 1 << 25  # limits for a face, and for all faces
 
-# In place of a face's number: pixels where the lens shows nothing.
+# The face number of pixels where the lens shows nothing.
 OUTSIDE = -1
 # The cube's faces, as columns u, v, w in units of the camera's.
 _AHEAD = np.eye(3)
@@ -67,22 +67,21 @@ class Face(NamedTuple):
 
 
 class Faces(NamedTuple):
-    """The faces of an image. positions: read-only float32 (height, width, 3), for each pixel the
-    place on its face, in texels from the face's middle, x right and y up; and the face's number, or
-    OUTSIDE.
+    """The faces of an image. positions: read-only float32 (height, width, 3): each pixel's place on
+    its face, in texels from the face's middle, x right and y up, and the face's number or OUTSIDE.
     """
 
     faces: tuple[Face, ...]
     positions: NDArray[np.float32]
 
     def place(self, number: int, i: NDArray[Any], j: NDArray[Any]) -> tuple[Floats, Floats]:
-        """Return where pixels (i, j) are on their face `number`: rows and columns, fractional."""
+        """Return the fractional rows and columns of pixels (i, j) on their face `number`."""
         (width, height), position = self.faces[number].size, self.positions[i, j].astype(float)
         return (height - 1) / 2 - position[:, 1], position[:, 0] + (width - 1) / 2
 
     def texel(self, number: int, i: NDArray[Any], j: NDArray[Any]) -> tuple[Floats, Floats]:
-        """Return rows and columns of the texels that pixels (i, j) look up there, as lens.glsl
-        does.
+        """Return rows and columns of the texels that pixels (i, j) look up on it, as in
+        lens.glsl.
         """
         (width, height), position = self.faces[number].size, self.positions[i, j]
         row = np.floor(np.float32(height / 2) - position[:, 1])
@@ -91,7 +90,7 @@ class Faces(NamedTuple):
 
 
 class _Part(NamedTuple):
-    """A face in units of the camera's basis. turn: (3, 3), its u, v, w as columns. viewport: on its
+    """A face in units of the camera's basis. turn: (3, 3), its u, v, w as columns. viewport: on the
     plane at distance 1.
     """
 
@@ -172,7 +171,7 @@ _kept_large = lru_cache(maxsize=1)(_looked_up)  # up to 100 MB at 3840 x 2160
 
 
 def _groups(directions: Floats, seen: NDArray[np.bool_]) -> list[tuple[Floats, NDArray[np.bool_]]]:
-    """Return the faces' bases in units of the camera's, and which pixels are on each."""
+    """Return the faces' bases in units of the camera's, each with the mask of its pixels."""
     x, y, z = np.moveaxis(directions, -1, 0)
     across, up, along = abs(x), abs(y), abs(z)
     inside = (across <= WIDEST * -z) & (up <= WIDEST * -z)

@@ -1,9 +1,9 @@
-"""Lenses: from directions to image points without a projection matrix, and back.
+"""Lenses: maps between directions and image points without a projection matrix.
 
 A lens maps a direction to a point (a, b) of the image plane at distance 1, with the axes of
 computer vision: a to the right, b downwards, and directions (X, Y, Z) with Z forwards. It does so
 in two steps: an ideal projection to a plane (the pinhole's, a fisheye's), then a polynomial map of
-that plane, the distortion. A lens sees only where both are one-to-one.
+that plane, the distortion. The image of a lens ends where one of the two is no longer one-to-one.
 Sources: OpenCV's documentation, "Camera calibration" and "Fisheye camera model"; COLMAP's
 documentation, "Camera Models"; Devernay and Faugeras, Straight lines have to be straight (2001);
 Kannala and Brandt, A generic camera model (2006).
@@ -24,8 +24,8 @@ from lucida.renderer.system.errors import LucidaError
 from .checks import Floats, number
 from .distortion import FARTHEST, Distortion, Point, first_fold
 
-# The coefficients of each model. Those that are not given are 0. r8 is a fourth radial one, of r^8,
-# which Metashape and nerfstudio call k4.
+# The coefficients of each model; missing ones are 0. r8 is the fourth radial one, of r^8, which
+# Metashape and nerfstudio call k4.
 MODELS: dict[str, tuple[str, ...]] = {
     "brown": ("k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2", "s1", "s2", "s3", "s4", "r8"),
     "fisheye": ("k1", "k2", "k3", "k4"),
@@ -78,7 +78,7 @@ class Lens:
         return hash((self.model, *self.coefficients.items()))
 
     def __str__(self) -> str:
-        """Return its model and its coefficients: brown, k1 = -0.2."""
+        """Return the model and the coefficients: brown, k1 = -0.2."""
         numbers = (f"{name} = {value:g}" for name, value in self.coefficients.items())
         return ", ".join([self.model, *numbers])
 
@@ -86,8 +86,7 @@ class Lens:
         return self.coefficients.get(name, 0.0)
 
     def image_point(self, X: ArrayLike, Y: ArrayLike, Z: ArrayLike) -> Point:
-        """Return where directions appear on the image plane; NaN for those that the lens does not
-        see.
+        """Return the image points of directions; NaN for those outside the lens.
 
         X, Y, Z: any shape and length; Z is forwards.
         """
@@ -98,8 +97,8 @@ class Lens:
             return (a, b) if bends is None else bends.forward(a, b)
 
     def direction(self, a: ArrayLike, b: ArrayLike) -> tuple[Floats, Floats, Floats]:
-        """Return the directions that appear at points of the image plane: the inverse of
-        image_point(); NaN outside of the lens.
+        """Return the directions at points of the image plane, inverting image_point(); NaN outside
+        the lens.
 
         Z is 1 for the lenses whose ideal is the pinhole; the others' directions have length 1,
         except a cylinder's, which have X^2 + Z^2 = 1.
@@ -112,8 +111,8 @@ class Lens:
             return _plane_direction(self, x, y)
 
     def border(self) -> Floats | None:
-        """Return the border of what the lens sees of the image plane, a closed curve of points
-        (n, 2); None if it sees all of the plane.
+        """Return the border of the lens's image on the plane, a closed curve of points (n, 2); None
+        if it covers the whole plane.
         """
         if self.model in ("equirectangular", "cylindrical"):
             high = math.pi / 2 if self.model == "equirectangular" else FARTHEST
@@ -131,7 +130,7 @@ class Lens:
         return None if math.isinf(end) else end * around
 
     def ends(self, axis: int) -> tuple[float, float]:
-        """Return where the lens ends on the axis a (0) or b (1) of the image plane."""
+        """Return the ends of the lens's image on the axis a (0) or b (1) of the image plane."""
         border = self.border()
         if border is None:
             return -math.inf, math.inf
@@ -145,7 +144,7 @@ class Lens:
         return float(low), float(places[places > 0].min(initial=math.inf))
 
     def length(self, X: ArrayLike, Y: ArrayLike, Z: ArrayLike) -> Floats:
-        """Return the length of directions in units of those that direction() returns."""
+        """Return the length of directions in units of direction()'s."""
         x, y, z = (np.asarray(axis, float) for axis in (X, Y, Z))
         if self.model == "brown":
             return z + 0 * (x + y)
@@ -163,9 +162,7 @@ def coefficient_range(model: str, name: str) -> tuple[float, float]:
 
 
 def with_coefficient(lens: Lens, name: str, value: float) -> Lens:
-    """Return the lens with another coefficient; those that are 0 are left out. Raises
-    LucidaError.
-    """
+    """Return the lens with another coefficient, without those that are 0. Raises LucidaError."""
     return Lens(lens.model, {k: v for k, v in {**lens.coefficients, name: value}.items() if v})
 
 
@@ -176,7 +173,7 @@ def check_lens(lens: object, projection: str) -> None:
             "lens", f"is of type {type(lens).__name__}, not a Lens", "give a Lens, or None"
         )
     if projection != "perspective":
-        problem = "parallel rays pass through no lens"
+        problem = "parallel rays cannot pass through a lens"
         raise LucidaError("lens", problem, "give a perspective camera, or no lens")
 
 
@@ -253,7 +250,7 @@ def _distortion(lens: Lens) -> Distortion | None:
     """Return the map of a lens's plane; None if it is the identity."""
     if not any(lens.coefficients.values()) or lens.model == "fov":
         return None
-    from numpy.polynomial import Polynomial  # late: it takes longer than all else here
+    from numpy.polynomial import Polynomial  # imported late, because it is slow
 
     k1, k2, k3, k4, k5, k6 = (lens.coefficient(f"k{n}") for n in range(1, 7))
     if lens.model == "brown":

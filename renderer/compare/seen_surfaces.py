@@ -1,6 +1,6 @@
-"""The surfaces that the pixels of an image see, in float64, and where lines of the image are near.
+"""The surfaces at the pixels of an image, in float64, and the pixels near lines of the image.
 
-Each primitive's surface is extended beyond its outline, so that what a pixel sees of it can be
+Each primitive's surface is extended beyond its outline, so that its values at a pixel can be
 differentiated. why_different.py selects the lines that explain a difference.
 
 All functions take arrays of pixels: i, j (n,) rows and columns, which may be fractional.
@@ -42,7 +42,7 @@ ROUNDING_32 = 2.0**-21  # float32's error after a few roundings, relative
 ROUNDING_64 = 1e-12  # float64's error at the eye, relative to the largest coordinate
 MARGIN = 1024  # pixels around the image that OpenGL clips to (raster/scene_data.py)
 
-# Degenerate primitives and misses: their NaN and infinities are replaced at the end.
+# NaN and infinities of degenerate primitives and misses are replaced at the end.
 quiet = partial(np.errstate, divide="ignore", invalid="ignore", over="ignore")
 
 
@@ -50,7 +50,7 @@ quiet = partial(np.errstate, divide="ignore", invalid="ignore", over="ignore")
 class View:
     """One scene as seen by a pinhole camera in an image of (width, height).
 
-    face: of a lens's image, whose camera and size these are: ray parameters are then those of the
+    face: a face of a lens's image, with this camera and size; ray parameters are then those of the
     lens's rays.
     """
 
@@ -88,7 +88,7 @@ class View:
 class Surfaces:
     """A primitive for each of n pixels (-1: none), extended beyond its outline.
 
-    t: (n,), the ray parameters of the hits: of a sphere's two hits, the one nearer to it counts.
+    t: (n,), the ray parameters of the hits; they select one of a sphere's two hits.
     """
 
     def __init__(self, view: View, primitive: Ints, t: Floats) -> None:
@@ -100,12 +100,12 @@ class Surfaces:
         self._corners = world_corners(flat, self._faces).astype(float)
         self._spheres = flat.spheres[primitive[self._sphere] - triangles]
         owners = np.concatenate([flat.face_object, flat.sphere_object])
-        # Any object's if nothing is hit.
+        # Pixels without a hit get any object.
         self._owner = owners[primitive] if len(owners) else np.zeros(len(primitive), int)
         seen = self._points = view.image_points(self._corners)
         if view.camera.is_parallel:
             seen = np.concatenate([seen[..., :2], np.ones_like(seen[..., :1])], axis=2)
-        # Edge k is opposite to corner k: the line x . edge = 0 of the pixels x = (x, y, 1).
+        # Edge k, opposite to corner k, is the line x . edge = 0 of the pixels x = (x, y, 1).
         p, q = np.roll(seen, -1, axis=1), np.roll(seen, -2, axis=1)
         self._edges = np.cross(p + q, q - p)
         volume = np.einsum("nx,nx->n", np.cross(seen[:, 0], seen[:, 1]), seen[:, 2])
@@ -157,9 +157,7 @@ class Surfaces:
             return origin + self.parameter(i, j)[:, None] * direction, direction
 
     def at_outline(self, i: Numbers, j: Numbers, px: float) -> Bools:
-        """Return which pixels are within px of their primitive's outline, or of an edge to its
-        error in float32.
-        """
+        """Return a mask of pixels within px, or float32's error, of their primitive's outline."""
         found = np.zeros(len(self.t), bool)
         with quiet():
             inside = self._side * self._edge_values(i, j) / norm(self._edges[..., :2], 2)
@@ -188,8 +186,8 @@ class Surfaces:
         return norm(across * pixels, 2) * (ROUNDING_32 * np.minimum(size, far) / t)[:, None]
 
     def at_clip(self, i: Numbers, j: Numbers, px: float, drawn: bool = False) -> Bools:
-        """Return which pixels are within px of where near, far or the eye's plane cuts, or see a
-        part of a triangle that is too near to the eye for OpenGL. drawn: not if it was drawn.
+        """Return a mask of pixels within px of a cut by near, far or the eye's plane, or on a part
+        of a triangle too near to the eye for OpenGL. drawn: without parts that were drawn.
         """
         camera, here = self._view.camera, self.parameter(i, j)
         found = np.zeros(len(self.t), bool)
@@ -204,7 +202,7 @@ class Surfaces:
                 found |= is_within(lambda i, j: self.parameter(i, j) - limit, i, j, px)  # noqa: B023
         if not camera.is_parallel:
             # OpenGL clips at NEAREST of the object's farthest depth. That displaces the rest of a
-            # triangle by ROUNDING_32 of its size: if it is more than MARGIN, it may vanish.
+            # triangle by ROUNDING_32 of its size; it may vanish if that is more than MARGIN.
             flat, owner = self._view.flat, self._owner[self._triangle]
             corners = corners_of(flat.object_bounds[owner])
             matrix = flat.world_from_object[owner]
@@ -219,8 +217,8 @@ class Surfaces:
         return found & (self.primitive >= 0)
 
     def checker_px(self, i: Numbers, j: Numbers) -> Floats:
-        """Return the distance from the nearest border of a checker's cell; inf without a checker;
-        0 if it is less than float32's error.
+        """Return the distance from the nearest border of a checker's cell. It is inf without a
+        checker, and 0 below float32's error.
         """
         flat, view = self._view.flat, self._view
         distance = np.full(len(self.t), np.inf)
@@ -256,8 +254,8 @@ class Surfaces:
         return np.where((_dot(normal, direction) > 0)[:, None], -normal, normal)
 
     def texture_varies(self, i: Numbers, j: Numbers) -> Floats:
-        """Return by what part, 0 to 1, each colour of a texture's and a metal's light varies within
-        TOLERANCE_PX: (n, 3).
+        """Return the relative variation (n, 3), 0 to 1, of a texture's and a metal's light within
+        TOLERANCE_PX.
         """
         varies = np.zeros((len(self.t), 3))
         textured, places = self._places_around(i, j, TOLERANCE_PX)
@@ -267,7 +265,7 @@ class Surfaces:
         return varies
 
     def at_hole(self, i: Numbers, j: Numbers, px: float) -> Bools:
-        """Return which pixels have both a hole and no hole within px."""
+        """Return a mask of pixels with both a hole and no hole within px."""
         found = np.zeros(len(self.t), bool)
         textured, places = self._places_around(i, j, px)
         if textured.any():
@@ -276,8 +274,8 @@ class Surfaces:
         return found
 
     def _places_around(self, i: Numbers, j: Numbers, px: float) -> tuple[Bools, Floats]:
-        """Return which pixels see something textured, and texel coordinates (k, n, 2) around them:
-        within px, and float32's error.
+        """Return a mask of textured pixels, and texel coordinates (k, n, 2) around them, within px
+        and float32's error.
         """
         flat = self._view.flat
         textured = self.primitive >= 0
@@ -320,7 +318,7 @@ class Surfaces:
 
 
 def is_within(function: Function, i: Numbers, j: Numbers, px: float) -> Bools:
-    """Return where the function's zero is within px, to first order."""
+    """Return a mask of pixels within px of the function's zero, to first order."""
     with quiet():
         near: Bools = np.abs(function(i, j)) <= px * slope_of(function, i, j)
     return near

@@ -12,7 +12,7 @@ from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.boxes import corners_of
 from lucida.renderer.scene.flat import FlatScene
 
-DARK = 1.5 / 255  # a display value; an image below it looks black
+DARK = 1.5 / 255  # a display value; darker images look black
 NO_LIGHT = 1e-6  # linear: invisible at any usual exposure
 
 
@@ -57,9 +57,9 @@ def hits_nothing(*frames: Frame) -> bool:
 
 
 def darkness(flat: FlatScene, camera: Camera, frame: Frame) -> Darkness:
-    """Return how dark an image is, and why. frame: with the channels color and id.
+    """Return the darkness of an image and its reason. frame: with the channels color and id.
 
-    Causes in addition to those of why_nothing_is_hit(): no "light"; and in Darkness.shown(), the
+    Additional causes to those of why_nothing_is_hit() are no "light" and, in Darkness.shown(), the
     "exposure".
     """
     if hits_nothing(frame):
@@ -69,7 +69,7 @@ def darkness(flat: FlatScene, camera: Camera, frame: Frame) -> Darkness:
     if brightest > NO_LIGHT:
         return Darkness(brightest, None)
     shining = bool(len(flat.lights)) and bool(flat.lights[:, 1, :3].any())
-    text = "no light reaches what is seen" if shining else "the scene has no light"
+    text = "no light reaches the visible surfaces" if shining else "the scene has no light"
     return Darkness(brightest, Reason("light", text))
 
 
@@ -81,9 +81,9 @@ def exposure_for(brightest: float) -> float:
 def why_nothing_is_hit(flat: FlatScene, camera: Camera) -> Reason:
     """Return the reason that nothing is hit in any image of this camera.
 
-    Causes: nothing is visible ("empty"); everything is "behind" the eye, outside of the "lens",
-    "beside" the view volume, or cut by near and far ("clip"). Judged by points of each object's
-    box: its corners, its middle, and the point nearest to the eye.
+    The causes: nothing is visible ("empty"); everything is "behind" the eye, outside the "lens",
+    "beside" the view volume, or cut by near and far ("clip"). They are tested at points of each
+    object's box: its corners, its middle, and the point nearest to the eye.
     """
     visible = (flat.object_faces[:, 1] > 0) | (flat.object_sphere >= 0)
     if not visible.any():
@@ -95,7 +95,7 @@ def why_nothing_is_hit(flat: FlatScene, camera: Camera) -> Reason:
         return Reason("behind", "everything is behind the eye")
     seen = ahead & np.isfinite(row)
     if not seen.any():
-        return Reason("lens", "everything is outside of the lens")
+        return Reason("lens", "everything is outside the lens")
     row, column = row[seen], column[seen]
     sides = {
         "left": column < -0.5,
@@ -105,12 +105,12 @@ def why_nothing_is_hit(flat: FlatScene, camera: Camera) -> Reason:
     }
     where = " and ".join(side for side, is_there in sides.items() if is_there.all())
     if where:
-        return Reason("beside", f"everything is outside of the picture: {where}")
+        return Reason("beside", f"everything is outside the picture: {where}")
     near, far = camera.t_range
     if (ahead & ~((t > near) & (t < far))).any():
         planes = [f"{n} = {d:g}" for n, d in (("near", camera.near), ("far", camera.far)) if d]
-        return Reason("clip", f"what would be in view is cut by {' and '.join(planes)}")
-    return Reason("beside", "no viewing ray meets an object")
+        return Reason("clip", f"all objects in view are cut by {' and '.join(planes)}")
+    return Reason("beside", "no viewing ray hits an object")
 
 
 def middle_of(flat: FlatScene) -> tuple[float, float, float]:
@@ -120,7 +120,7 @@ def middle_of(flat: FlatScene) -> tuple[float, float, float]:
 
 
 def _points(flat: FlatScene, camera: Camera, visible: np.ndarray) -> np.ndarray:
-    """Return ten points of the box of each visible object, world, (n, 10, 3)."""
+    """Return ten points of the box of each visible object in the world, (n, 10, 3)."""
     bounds, matrix = flat.object_bounds[visible].astype(float), flat.world_from_object[visible]
     eye = np.linalg.inv(matrix) @ np.append(camera.eye, 1.0)
     nearest = np.clip(eye[:, :3], bounds[:, 0], bounds[:, 1])

@@ -1,4 +1,4 @@
-"""Moving items in the world, as their handle does, with the result in the file's fields."""
+"""Moving items in the world, as by their handle, with the result in the file's fields."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .changing import Item, as_tables, entry_of, fields_of, find, with_changed
 Floats = NDArray[np.float64]
 
 PLACES = ("center", "translate", "position")  # of a sphere, a mesh, a point light
-DIGITS = 12  # significant digits in the file: the rest is rounding
+DIGITS = 12  # significant digits in the file; the rest is rounding
 
 
 def bounds_of(scene: Scene, items: Sequence[Item]) -> Floats | None:
@@ -56,9 +56,9 @@ def object_box(shape: Shape) -> Floats:
 
 def shift(scene: Scene, items: Sequence[Item], by: ArrayLike) -> Scene:
     """Return the scene with some items moved by a vector (3,) in the world; a directional light
-    has no place, and stays. During a drag, pass the scene from its beginning and the whole way.
+    stays, because it has no position. During a drag, pass the initial scene and the total motion.
 
-    Raises LucidaError if an item cannot be moved so.
+    Raises LucidaError if an item cannot be moved.
     """
     way = np.asarray(by, float)
     if way.shape != (3,) or not np.isfinite(way).all():

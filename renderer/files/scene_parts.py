@@ -1,7 +1,6 @@
 """The shapes, models and images of a scene file, before its objects are placed.
 
-Each is made or read once, or taken from the scene before a change. A fault is an error of the
-file, which names the field.
+Each is made or read once, or taken from the scene before a change. Errors name the file's field.
 """
 
 from __future__ import annotations
@@ -38,8 +37,8 @@ from .schema import (
 )
 from .texture_images import FoundImage, inner_path, read_image
 
-# For each shape the function that makes it, the one that adds texture coordinates, and its number
-# of triangles per segment (and side of a tube).
+# The function that makes each shape, the one that adds texture coordinates, and the number of
+# triangles per segment (and side of a tube).
 _SHAPES: dict[type[ObjectTable], tuple[Callable[..., Mesh], Callable[..., Mesh], int]] = {
     BoxTable: (shapes.box, on_box, 12),
     RectangleTable: (shapes.rectangle, on_plane, 2),
@@ -55,7 +54,7 @@ class SceneParts:
     """The parts of one scene file in a folder.
 
     entries: of the scene before a change. Equal parts stay the same values, so that renderers
-    notice only what changed.
+    detect only real changes.
     """
 
     def __init__(self, folder: Path, entries: tuple[FileEntry, ...]) -> None:
@@ -103,7 +102,7 @@ class SceneParts:
         return self._meshes[key]
 
     def texture(self, given: str | TextureTable, has_opacity: bool = False) -> Texture:
-        """Return a texture. Raises LucidaError, whose field is below a material."""
+        """Return a texture. Raises LucidaError with a field below a material."""
         table = TextureTable(file=given) if isinstance(given, str) else given
         wrap = (table.wrap,) * 2 if isinstance(table.wrap, str) else table.wrap
         scale = (table.scale,) * 2 if isinstance(table.scale, int | float) else table.scale
@@ -112,14 +111,14 @@ class SceneParts:
             return self._kept(Texture(pixels, wrap, scale, table.offset, file, table.rotate_deg))
 
     def metal(self, given: str | MetalTable) -> Metal:
-        """Return a metal. Raises LucidaError, whose field is below a material."""
+        """Return a metal. Raises LucidaError with a field below a material."""
         table = MetalTable(file=given) if isinstance(given, str) else given
         with under("metal"):
             pixels, file = self._image(table.file) if table.file else (EVERYWHERE, None)
             return self._kept(Metal(pixels, table.metalness, table.roughness, file))
 
     def _kept(self, image: Image) -> Image:
-        """Return the equal image that is known, or else this one."""
+        """Return the known image that is equal, or else this one."""
         values = (id(v) if isinstance(v, np.ndarray) else v for v in vars(image).values())
         kept: Image = self._images.setdefault((type(image), *values), image)
         return kept
@@ -136,7 +135,7 @@ class SceneParts:
 def made_triangles(table: ObjectTable) -> int:
     """Return a shape's number of triangles; 0 for a sphere or a model.
 
-    Illegal numbers of segments, which the shape refuses, count as the nearest legal one.
+    Invalid numbers of segments, which the shape rejects, are clamped to valid ones.
     """
     count = _SHAPES[type(table)][2] if type(table) in _SHAPES else 0
     for name in ("segments", "sides"):

@@ -22,7 +22,7 @@ from lucida.renderer.system.errors import LucidaError, one_line, quoted, shorten
 from .reading import check_bytes, read_file
 
 Bytes = NDArray[np.uint8]
-# Pillow reads dozens of others, which nobody has textures in.
+# Pillow reads dozens of other formats, which are not used for textures.
 FORMATS = ("PNG", "JPEG", "BMP", "TGA", "GIF", "WEBP", "PPM")
 _REMEDY = "save it as PNG or JPEG"
 _SHOWN = 80  # letters of a name
@@ -36,10 +36,10 @@ class FoundImage(NamedTuple):
 
 
 def decode_image(data: bytes, has_opacity: bool = False) -> Bytes:
-    """Return the pixels of an image file, uint8 (height, width, 3), sRGB; has_opacity: (height,
-    width, 4), with opacity where the file has any.
+    """Return the pixels of an image file, uint8 (height, width, 3), sRGB; with has_opacity,
+    (height, width, 4), including the file's opacity, if any.
 
-    Raises LucidaError where it is no such file, is damaged, or too large.
+    Raises LucidaError if it is not such a file, is damaged, or is too large.
     """
     from PIL import Image
 
@@ -50,14 +50,14 @@ def decode_image(data: bytes, has_opacity: bool = False) -> Bytes:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             with Image.open(io.BytesIO(data), formats=FORMATS) as image:
-                # The header alone has been read: what it declares is set aside only after this.
+                # Only the header has been read; memory for the pixels is allocated later.
                 width, height = image.size
                 if not 1 <= min(width, height) <= max(width, height) <= TEXTURE_SIDE:
                     problem = f"is {width}x{height} pixels"
                     raise LucidaError("", problem, f"stay within {TEXTURE_SIDE} a side")
                 if image.mode == "F":
                     raise LucidaError("", "holds floating-point numbers", _REMEDY)
-                if image.mode.startswith("I"):  # 16 bits, of which converting would cut the upper
+                if image.mode.startswith("I"):  # 16 bits, whose upper half conversion would drop
                     gray = (np.asarray(image, np.int64) >> 8).clip(0, 255).astype(np.uint8)
                     pixels = np.repeat(gray[..., None], 3, axis=2)
                 else:
@@ -74,17 +74,17 @@ def decode_image(data: bytes, has_opacity: bool = False) -> Bytes:
     except Image.DecompressionBombError:
         raise LucidaError("", "has too many pixels", f"stay within {TEXTURE_SIDE} a side") from None
     except Image.UnidentifiedImageError:
-        raise LucidaError("", f"is none of {', '.join(FORMATS)}", _REMEDY) from None
-    except Exception:  # Pillow raises what it likes for a damaged file
+        raise LucidaError("", f"is not one of {', '.join(FORMATS)}", _REMEDY) from None
+    except Exception:  # Pillow raises various exceptions for damaged files
         raise LucidaError("", "is cut off or damaged", _REMEDY) from None
     pixels.setflags(write=False)
     return pixels
 
 
 def inner_path(name: str, folder: Path) -> Path:
-    """Return the path of a file that another one names, in the folder of that one or below it, with
-    links followed. Raises LucidaError for any other: an absolute path, one with `..` that leads
-    out, a link.
+    """Return the path of a file that another one names, in that one's folder or below it.
+
+    Raises LucidaError for any other: an absolute path, or a `..` or link that leads out.
     """
     plain = name.replace("\\", "/")
     if not plain:
@@ -101,7 +101,7 @@ def inner_path(name: str, folder: Path) -> Path:
         is_outside = True
     if is_outside:
         raise LucidaError(
-            "", f"{shown(name)} is not in the folder of what names it", "copy it there"
+            "", f"{shown(name)} is not in the folder of the file that names it", "copy it there"
         )
     return folder / plain
 
@@ -122,7 +122,7 @@ def shown(name: str) -> str:
 
 @dataclass
 class ModelImages:
-    """The images of one model: each is read once, and each error is reported once.
+    """The images of one model. Each is read once, and each error is reported once.
 
     notes: one line for each image that is not shown; its surfaces have their plain colour.
     """

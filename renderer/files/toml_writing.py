@@ -7,7 +7,7 @@ from typing import Any
 
 
 def toml_text(tables: dict[str, Any]) -> str:
-    """Return the text of a scene file: a table a section, everything inside it in one line."""
+    """Return the text of a scene file: a section for each table, its fields on one line each."""
     lines = [f"{key} = {value_text(v)}" for key, v in tables.items() if _is_plain(key, v)]
     for key, value in tables.items():
         if key == "camera":
@@ -33,7 +33,7 @@ def entries(table: dict[str, Any]) -> list[str]:
 def value_text(value: Any) -> str:
     """Return a value in TOML 1.0. Numbers are read back exactly."""
     if isinstance(value, str):
-        # JSON's strings are TOML's, but for one character that TOML wants escaped.
+        # JSON's strings are also TOML's, except for one character that TOML must escape.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(value, bool):
         return "true" if value else "false"

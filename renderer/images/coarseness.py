@@ -1,15 +1,16 @@
 """The coarseness of images in motion, chosen from the times of the last ones.
 
-Within a motion the factor stays: an image that alternates between sharp and blurred is worse than
-one that is a little coarser than necessary. It becomes coarser only if it proves too slow, and
-finer if it proves quick enough. Once it has been too slow, it does not become finer again.
+The factor rarely changes within a motion, because an image that alternates between sharp and
+blurred is worse than one that is a little coarser than necessary. It becomes coarser only if it
+proves too slow, and finer if it proves quick enough. Once it has been too slow, it does not become
+finer again.
 """
 
 from __future__ import annotations
 
 FACTORS = (1, 2, 4, 8)  # image pixels along a side of a coarse pixel
-STILL_S = 0.2  # after the last change: images are full, and the next change begins another motion
-TOO_SLOW = 2.0  # times the budget: a slower image is a miss
+STILL_S = 0.2  # after the last change, images are full, and the next change begins a new motion
+TOO_SLOW = 2.0  # times the budget; slower images are misses
 MOST_MISSES = 4  # in a row, before images become coarser
 MOST_HITS = 8  # in a row that finer images would have met, before images become finer
 
@@ -22,7 +23,7 @@ def reduced(size: tuple[int, int], factor: int) -> tuple[int, int]:
 class Coarseness:
     """The choice of the factor.
 
-    budget_s: the time for an image of a motion. unknown: the factor before anything was measured.
+    budget_s: the time for an image in motion. unknown: the factor before any measurement.
     """
 
     def __init__(self, budget_s: float, unknown: int = 1) -> None:
@@ -34,7 +35,7 @@ class Coarseness:
         self._factor = unknown
 
     def changed(self, pixels: int, now_s: float) -> int:
-        """Return the factor for an image of something that has changed now.
+        """Return the factor for an image after a change.
 
         pixels: of the full image.
         """
@@ -53,7 +54,7 @@ class Coarseness:
         """Record that an image of this many pixels, at a factor, took this long."""
         pixel_s = time_s / max(pixels, 1)
         last_s = self._pixel_s.get(factor, pixel_s)
-        # Something else may have had the processor: a longer time counts half.
+        # A longer time counts half, because another process may have had the processor.
         self._pixel_s[factor] = min(pixel_s, (last_s + pixel_s) / 2)
         if factor == self._factor:
             self._misses = self._misses + 1 if time_s > TOO_SLOW * self._budget_s else 0
@@ -61,11 +62,11 @@ class Coarseness:
             self._hits = self._hits + 1 if within else 0
 
     def forget(self) -> None:
-        """Drop all measurements, because something else will be drawn."""
+        """Drop all measurements, because the content will change."""
         self._pixel_s.clear()
 
     def _finest(self, pixels: int) -> int:
-        """Return the finest factor that meets the budget, as far as is known."""
+        """Return the finest factor expected to meet the budget."""
         if not self._pixel_s:
             return self._unknown
         within = (one for one in FACTORS if self._expected_s(one, pixels) <= self._budget_s)

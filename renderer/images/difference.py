@@ -33,7 +33,7 @@ CAUSE_COLORS = {
     "lookup": (160, 220, 90),
 }
 
-# Lightness rises evenly from black to white. After matplotlib's inferno (Smith and van der Walt).
+# Lightness rises evenly from black to white, after matplotlib's inferno (Smith and van der Walt).
 _ABSOLUTE = (
     (0, 0, 0),
     (31, 12, 72),
@@ -57,7 +57,7 @@ ABSOLUTE_COLORS = _colors(_ABSOLUTE)  # uint8 (STEPS, 3), sRGB: no difference to
 
 
 def difference(raster: Frame, ray: Frame, channel: str = "color") -> Floats32:
-    """Return how much a channel differs, float32 (height, width); see the head of this file.
+    """Return the difference in a channel, float32 (height, width); see the module.
 
     NaN if one image has NaN. Raises LucidaError if a frame lacks the channel.
     """
@@ -78,14 +78,14 @@ def difference(raster: Frame, ray: Frame, channel: str = "color") -> Floats32:
 
 
 def most(vectors: Floats32) -> Floats32:
-    """Return for each vector (..., 3) its component's largest absolute value."""
+    """Return the largest absolute component of each vector (..., 3)."""
     # Not vectors.max(axis=-1), which reduces three numbers at a time and takes ten times as long.
     x, y, z = (np.abs(vectors[..., axis]) for axis in range(3))
     return np.maximum(np.maximum(x, y), z)  # NaN if any is NaN
 
 
 def false_color(values: Floats32, channel: str, gain: float = 1.0) -> Bytes:
-    """Return differences as colours, uint8 (..., 3): full scale is FULL_SCALE[channel] / gain.
+    """Return differences as colours, uint8 (..., 3): the full scale is FULL_SCALE[channel] / gain.
 
     Values beyond it, and NaN, get the last colour.
     """

@@ -120,9 +120,7 @@ def gray_picture(frame: Frame, channel: str = "color", exposure_ev: float = 0.0)
 
 
 def gray_of(shown: Bytes) -> Bytes:
-    """Return the gray of an sRGB picture (height, width, 3): its luminance in linear light,
-    encoded.
-    """
+    """Return the gray of an sRGB picture (height, width, 3): its encoded linear luminance."""
     linear_of_byte = from_srgb(np.arange(256, dtype=np.uint8))
     return to_srgb8(luminance(linear_of_byte[shown]))
 

@@ -5,7 +5,7 @@ stores rows.
 
 PNG, PPM, PGM and PBM hold pictures: 8-bit sRGB colours (PNG, PPM), their gray (PGM), or the gray
 thresholded at half (PBM, one bit per pixel). renderer/images/display.py makes them from channels.
-PFM, EXR and NPY hold the numbers, unexposed: linear light, ray parameters, world normals, indices.
+PFM, EXR and NPY hold unexposed numbers: linear light, ray parameters, world normals and indices.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .display import Bytes, gray_of, gray_picture, picture
 from .frame import Frame
 from .png import write_png
 
-# EXR's channel names, with its convention for layers: "N.X" is the X of layer N.
+# EXR's channel names; by its convention for layers, "N.X" is the X of layer N.
 EXR_CHANNELS = {
     "color": ("R", "G", "B"),
     "depth": ("Z",),
@@ -132,7 +132,7 @@ def join_exrs(
 ) -> Iterator[None]:
     """Write images of write_image() that lie below one another as one image of (width, height).
 
-    Needs memory for one part only. Yields after each part. Raises OSError if one is no such file.
+    Only one part is in memory at a time. Yields after each part. Raises OSError for other files.
     """
     import Imath
     import OpenEXR

@@ -52,7 +52,7 @@ class Frame:
         return png
 
     def show(self, channel: str = "color") -> Any:
-        """Return a channel for a notebook to display, with the range of its values and its shape.
+        """Return a channel that a notebook displays with the range of its values and its shape.
 
         Raises LucidaError if it was not rendered.
         """
@@ -78,7 +78,7 @@ class Frame:
 
 
 def stored(channel: str) -> str:
-    """Return the frame's channel that holds a shown one: z is in the depth's place."""
+    """Return the frame's channel that holds a visible one; z replaces the depth."""
     return "depth" if channel == "z" else channel
 
 
@@ -96,8 +96,8 @@ def check_channels(channels: Iterable[str]) -> tuple[str, ...]:
 def check_size(size: Iterable[int], rows: tuple[int, int] | None = None) -> tuple[int, int]:
     """Return (width, height) as ints. Raises LucidaError for an impossible image size.
 
-    rows: the first and the one past the last, of an image that is drawn in parts; only they must
-    stay within LARGEST_PIXELS.
+    rows: the first, and one past the last, if an image is drawn in parts; only they must stay
+    within LARGEST_PIXELS.
     """
     try:
         sides = [number("size", side) for side in size]

@@ -1,16 +1,16 @@
 """Constants shared by the rasterizer's shaders, the tracer's kernels and the teaching code.
 
-Each is defined only here: Python imports it, numba compiles it into the kernels, and a shader that
-names it gets it declared as a constant (renderer/raster/sources.py). The formulas are written
-separately for each renderer: their agreement is only meaningful if they share no code.
+Each is defined only here. Python imports it, numba compiles it into the kernels, and it is declared
+as a constant in shaders that name it (renderer/raster/sources.py). Each renderer has its own
+formulas, because their agreement is meaningful only if they share no code.
 """
 
 from __future__ import annotations
 
-# Normals. The mean of a triangle's three vertex normals is used where it is at least this long.
+# Normals. The mean of a triangle's three vertex normals is used if it is at least this long.
 SHORTEST_MEAN = 1e-6
-# It is negated if the vertex normals' sum is on the other side of the triangle than the winding's
-# normal, by more than this: a sum in the triangle's plane, up to rounding, is not negated.
+# It is negated if the vertex normals' sum is opposite to the winding's normal by more than this, so
+# that a sum in the triangle's plane, up to rounding, is not negated.
 OTHER_SIDE = -1e-5
 # The least cosine between shading normals and the direction to the viewer.
 GRAZING = 1e-3
@@ -30,11 +30,11 @@ TEXEL_BITS = 10
 
 # Light. A point light nearer than this has no direction, and therefore no light.
 NEAREST_LIGHT = 1e-12
-# No highlight for a half vector shorter than this: the light is exactly behind.
+# A half vector shorter than this has no highlight, because the light is exactly behind.
 SHORTEST_HALF = 1e-6
 
-# The offset of shadow and mirror rays from their surface, relative to the scene's size: without
-# it, rounding makes them hit the surface itself.
+# The offset of shadow and mirror rays from their surface, relative to the scene's size. Without it,
+# rounding makes them hit the surface itself.
 AWAY = 2e-5
 
 # sRGB's curve. Up to SRGB_LINEAR of light (SRGB_LINEAR_SHOWN of the display value) it is a line of

@@ -1,7 +1,7 @@
 """A notebook's display of frames, cameras and scenes: PNG, SVG and HTML, without scripts.
 
-The classes' own `_repr_png_` and `_repr_html_` call these functions, so that importing them costs
-nothing elsewhere.
+The classes' own `_repr_png_` and `_repr_html_` call these functions, so that they are imported only
+in notebooks.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ _COLORS = {"u": "#c2410c", "v": "#15803d", "w": "#1d4ed8"}
 
 @dataclass(frozen=True)
 class Shown:
-    """A channel of a frame, as a notebook displays it."""
+    """A channel of a frame for display in a notebook."""
 
     frame: Frame
     channel: str
@@ -64,7 +64,7 @@ class Shown:
 
 
 def frame_png(frame: Frame) -> bytes | None:
-    """Return the first channel that was rendered as a PNG file; None without any."""
+    """Return the first rendered channel as a PNG file; None if there is none."""
     rendered = [name for name in CHANNELS if getattr(frame, name) is not None]
     return png(frame, rendered[0]) if rendered else None
 

@@ -17,8 +17,8 @@ from lucida.renderer.scene.focus import Focus
 
 @dataclass(frozen=True)
 class Slider:
-    """A number. name: its field and, in a vector, its index: "eye.0". low, high: of the slider; the
-    number itself may lie beyond. logarithmic: low and high are above 0.
+    """A slider for a number. name: its field and, in a vector, its index: "eye.0". low, high: of
+    the slider; the number may exceed them. logarithmic: low and high are above 0.
     """
 
     name: str
@@ -30,10 +30,10 @@ class Slider:
 
 
 def sliders_of(camera: Camera, target: Vector, focus: Focus) -> list[Slider]:
-    """Return the sliders that a camera has: a target if it is level, otherwise u, v and w; a field
-    of view and a distance in perspective, otherwise the viewport's height; a lens's coefficients.
+    """Return a camera's sliders.
 
-    target: the point that it looks at.
+    They are the target of a level camera, or u, v and w; the field of view and the distance in
+    perspective, or the viewport's height; and a lens's coefficients. target: the point looked at.
     """
     middle, reach = focus.center, focus.reach
 
@@ -91,8 +91,8 @@ def with_number(camera: Camera, name: str, value: float, target: Vector) -> Came
 
 
 def is_level(camera: Camera) -> bool:
-    """Return True for a camera as from Camera.look_at(): an orthonormal, right-handed basis, no
-    roll.
+    """Return True if the basis is orthonormal, right-handed and without roll, as
+    Camera.look_at()'s.
     """
     basis = camera.basis
     orthonormal = np.allclose(basis.T @ basis, np.eye(3), atol=1e-6)
@@ -103,7 +103,7 @@ def is_level(camera: Camera) -> bool:
 
 def target_of(camera: Camera, focus: Focus, last: Vector) -> Vector:
     """Return the point that a camera looks at: the last one, if it is still in the view direction,
-    otherwise that at the depth of the scene's middle.
+    or else the one at the depth of the scene's middle.
     """
     back = np.asarray(camera.w)
     toward = np.asarray(last) - camera.eye

@@ -1,4 +1,4 @@
-"""OpenGL contexts without a window: finding a platform, and making its context current.
+"""OpenGL contexts without a window: find a platform, and make its context current.
 
 The platforms are EGL, OSMesa and the system's default. A window's context is passed in.
 """
@@ -44,7 +44,7 @@ class Standalone:
     def __init__(self, name: str) -> None:
         self.name = name
         settings: dict[str, Any] = {}
-        if name == "egl":  # so that moderngl does not search for them again
+        if name == "egl":  # spares moderngl another search
             libraries = {"libgl": found_library("GL"), "libegl": found_library("EGL")}
             settings = {"backend": "egl", **libraries}
         with nothing_current():
@@ -68,7 +68,7 @@ class Standalone:
 
 
 class OSMesa:
-    """Mesa's off-screen software renderer: no display, no driver, no device.
+    """Mesa's off-screen software renderer, which needs no display, driver or device.
 
     Raises OSError if the library is missing, RuntimeError if it has no core 3.3 context.
     """
@@ -80,7 +80,7 @@ class OSMesa:
         attributes = (ctypes.c_int * len(_ATTRIBUTES))(*_ATTRIBUTES)
         self._handle = self._library.OSMesaCreateContextAttribs(attributes, None)
         if not self._handle:
-            raise RuntimeError("libOSMesa gives no OpenGL 3.3 core context")
+            raise RuntimeError("libOSMesa has no OpenGL 3.3 core context")
         # OSMesa requires a default framebuffer in memory, though everything is drawn into textures.
         self._pixels = (ctypes.c_ubyte * 4)()
         with nothing_current(), self:
@@ -133,8 +133,8 @@ def open_platform(
     """Return a context to draw in. backend: "egl", "osmesa", or "auto": the first that works.
 
     context: a window's, current in this thread; backend is then ignored.
-    Raises LucidaError naming what was tried and what to install. Also raises it in a forked process
-    whose parent has loaded the driver, which would wait for the parent's threads.
+    Raises LucidaError naming the platforms tried and the packages to install, and also in a forked
+    process whose parent has loaded the driver, which would wait for the parent's threads.
     """
     check_process()
     if context is not None:

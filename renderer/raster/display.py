@@ -22,8 +22,8 @@ SQUARES = 32
 class Look:
     """The appearance of an image.
 
-    exposure_ev, transfer: of the colour. dissolved: 0 to 1, how far the image has dissolved into
-    flat squares, each with the value of its middle, until there are SQUARES of them in a row.
+    exposure_ev, transfer: of the colour. dissolved: the progress, 0 to 1, of dissolving the image
+    into flat squares with the values of their middles, at last SQUARES in a row.
     """
 
     channel: Literal["color", "depth", "normal", "id"] = "color"
@@ -47,7 +47,7 @@ class Section:
 
 
 class Display:
-    """A renderer of images for the screen, in a context, which must be current."""
+    """A renderer of images for the screen, in a context that must be current."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -87,8 +87,8 @@ class Display:
         self._owner.release()
 
     def _screen_of(self, look: Look, section: Section) -> moderngl.VertexArray:
-        """Return a program specialised for this look, compiled on first use: a quarter of the time
-        of a general one.
+        """Return a program specialised for this look, compiled on first use. It takes a quarter of
+        the time of a general one.
         """
         constants = {
             "SHOWS_COLOR": look.channel == "color",
@@ -127,6 +127,6 @@ def upload(
     if texture is None:
         texture = new_texture(context, (width, height), components, dtype)
         if components == 1 and kind == "f4":
-            texture.swizzle = "RRRR"  # shaders read the ray parameter where the rasterizer puts it
+            texture.swizzle = "RRRR"  # shaders read the ray parameter from the fourth component
     texture.write(np.ascontiguousarray(array))
     return texture

@@ -1,7 +1,7 @@
-"""The image of a camera, with or without a lens: its passes over the scene.
+"""The passes over the scene for the image of a camera, with or without a lens.
 
-A lens's image takes one pass for each face (see renderer/camera/lens_faces.py); each has the two
-passes of the rasterizer, see() and shade().
+A lens's image takes both passes of the rasterizer, see() and shade(), for each face (see
+renderer/camera/lens_faces.py).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Lines and filled shapes over an image of a scene, hidden where the scene is nearer.
 
-Their geometry is projected: positions in pixels, with their depths. Lines are rectangles on the
-screen, antialiased and of any width: OpenGL's own lines need not support widths above one pixel.
+Their geometry is projected: positions in pixels, with their depths. Lines are antialiased
+rectangles on the screen, of any width, because OpenGL's own lines may be limited to one pixel.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .sources import link
 
 # Flags of segments and corners.
 ON_PLANE = 1  # part of the image plane, which does not hide it
-ROUND_START, ROUND_END = 2, 4  # end in a half disc; otherwise cut off
+ROUND_START, ROUND_END = 2, 4  # end in a half disc instead of being cut off
 DASHED = 8  # even where not hidden
 BARE = 16  # without a casing
 
@@ -52,8 +52,8 @@ CORNER = np.dtype(
     ]
 )
 
-# The display colour of lines' edges, dark in every theme: what is behind them is the scene, and the
-# lines themselves are pale.
+# The display colour of lines' edges, dark in every theme, because the lines are pale and the scene
+# is behind them.
 CASING = (0.03, 0.035, 0.04, 0.6)
 BLENDING = (moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA)  # the usual one
 
@@ -64,7 +64,7 @@ Layer = tuple[NDArray[Any], NDArray[Any]]  # dtypes CORNER and SEGMENT
 class LineRenderer:
     """A renderer of layers into the bound framebuffer of a context, which must be current.
 
-    The alpha channel is blended, too: mask it to preserve it. set() sets the uniforms of
+    The alpha channel is also blended; mask it to preserve it. set() sets the uniforms of
     chunks/outside.glsl for all of them.
     """
 
@@ -93,8 +93,8 @@ class LineRenderer:
     ) -> None:
         """Draw the layers, one over the other.
 
-        Lines have a casing, an edge of another colour: it makes them visible on any background, and
-        shows which line is in front.
+        Lines have a casing, an edge of another colour, which makes them visible on any background
+        and shows which line is in front.
         """
         gl = self._gl
         gl.enable_only(moderngl.BLEND)

@@ -32,7 +32,7 @@ class SceneSetup(NamedTuple):
     same when the object moves. object_from_world: (objects, 3, 3), for directions. vertex_object:
     (n,), int32. middles: (objects, 3), the centres of the objects' bounds, in their own spaces;
     turned_middles: from their origins, in the world. is_seen: (objects,), False for hidden ones.
-    object_rows: what object_rows() returns, as far as it does not depend on the camera.
+    object_rows: the part of object_rows() that does not depend on the camera.
     """
 
     planes: Floats
@@ -54,7 +54,7 @@ class Prepared(NamedTuple):
 def prepare(scene: Scene, known: tuple[Scene, Prepared] | None = None) -> Prepared:
     """Prepare a scene for Rasterizer(), or set_scene().
 
-    known: an earlier scene and its result; what the two scenes have in common is reused. Raises
+    known: an earlier scene and its result, whose common parts are reused. Raises
     LucidaError (see flatten).
     """
     check_scene(scene)
@@ -73,8 +73,8 @@ def scene_setup(
 ) -> SceneSetup:
     """Return planes of triangles, the objects' inverses and the vertices' objects.
 
-    known: of an earlier scene. same: for each object, the number of one there with the same mesh,
-    regardless of its transform, or -1; its planes are reused.
+    known: of an earlier scene. same: for each object, the number of one in it with the same mesh,
+    in any transform, or -1; its planes are reused.
     """
     linear, middles = flat.world_from_object[:, :3, :3], flat.object_bounds.mean(axis=1)
     return SceneSetup(
@@ -118,7 +118,7 @@ def object_planes(flat: FlatScene, number: int) -> Floats:
 
 
 def _fixed_rows(flat: FlatScene) -> NDArray[np.float32]:
-    """Return what object_rows() returns for any camera, and 0 for the rest."""
+    """Return the result of object_rows() that fits any camera, and 0 for the rest."""
     rows = np.zeros((len(flat.materials), OBJECT_TEXELS, 4), np.float32)
     linear = flat.world_from_object[:, :3, :3]
     rows[:, ROW_WORLD : ROW_WORLD + 3, :3] = linear

@@ -39,7 +39,7 @@ DEFAULT_CHANNELS = ("color", "depth", "normal", "id")
 class Rasterizer:
     """A rasterizer that draws one scene from any camera.
 
-    backend: "egl", "osmesa" or "auto". context: a window's, to draw in instead; it must be current
+    backend: "egl", "osmesa" or "auto". context: a window's, used instead; it must be current
     whenever a method is called. Otherwise each method makes its own context current, and then
     restores the previous one. platform: the backend, and OpenGL's renderer and version. Not
     thread-safe. Raises LucidaError if there is no OpenGL 3.3, or the scene does not fit.
@@ -84,8 +84,8 @@ class Rasterizer:
         """Draw another scene from now on. If that fails, the old one stays.
 
         Mesh arrays that both scenes share are not uploaded again, unless other objects were added
-        or removed. prepared: the result of prepare(), perhaps from another thread: a large scene
-        takes seconds.
+        or removed. prepared: the result of prepare(), perhaps from another thread, since a large
+        scene takes seconds.
         """
         prepared = prepared or prepare(scene, self._known)
         with self.current() as gl:

@@ -18,8 +18,8 @@ Target = tuple[moderngl.Texture, moderngl.Framebuffer]
 
 @contextmanager
 def plain_state(context: moderngl.Context, samplers: int = 1) -> Iterator[None]:
-    """Turn off depth test, culling, blending, and what a window's widgets have set for the first
-    texture units. Bind the present framebuffer again afterwards.
+    """Turn off depth test, culling and blending, and reset the first texture units after a window's
+    widgets. Bind the present framebuffer again at the end.
     """
     before = context.detect_framebuffer()
     try:

@@ -1,15 +1,15 @@
 """Triangle setup: the shaders' input for one camera, computed in float64.
 
 These are the tables that change with the camera: the camera block, and a row for each triangle,
-sphere and object, as NumPy arrays in the layout of shaders/chunks. Needs no GL.
+sphere and object, as NumPy arrays in the layout of shaders/chunks. GL is not needed.
 
-Image coordinates: a point's (x, y) in pixels from the image's centre (x right, y up), and t, the
+Image coordinates are a point's (x, y) in pixels from the image's centre (x right, y up), and t, the
 parameter of the ray through it. In perspective, x and y are multiplied by t, so that they are
 affine in the point. Pixel centres are exact in float32 in these coordinates.
 
-float32 has 7 digits, so nothing large may cancel on the GPU. Each object therefore has an anchor:
-the point of its bounding box that is nearest to the eye. Vertices are in their object's space, and
-only their difference from the anchor there is used. Lights, which belong to no object, are relative
+float32 has 7 digits, so nothing large may cancel on the GPU. Each object therefore has an anchor,
+the point of its bounding box nearest to the eye. Vertices are in their object's space, and only
+their difference from the anchor is used. Lights, which belong to no object, are relative
 to the scene's point nearest to the eye (near_point). A triangle's plane intersects a ray at t
 (parallel) or 1/t (perspective) that is affine in x and y: the three coefficients are computed here,
 where N.(a - eye) may cancel without harm.
@@ -42,10 +42,10 @@ from .prepared import SceneSetup
 
 FLOAT32_MAX = float(np.finfo(np.float32).max)
 TINY = 1e-30
-# Rows at a time. Small products stay on one thread of NumPy's BLAS: its threads wait for one
+# Rows at a time. Small products stay on one thread of NumPy's BLAS, whose threads wait for one
 # another, which takes tens of milliseconds while the tracer uses all cores.
 BLOCK = 8192
-# Up to this many objects in a block are multiplied one by one; with more, each row by its matrix.
+# Up to this many objects in a block are multiplied one by one; otherwise, rows are.
 FEW_OBJECTS = 100
 
 # std140: a vec3 takes four floats, whose last one is free for a scalar.
@@ -76,7 +76,7 @@ CAMERA_BLOCK = np.dtype(
 class RasterView(NamedTuple):
     """A camera without a lens, and the image's (width, height).
 
-    face: the face that this is of the image of a camera with a lens.
+    face: this camera's face in the image of a camera with a lens.
     """
 
     camera: Camera
@@ -157,8 +157,7 @@ def camera_block(
 ) -> NDArray:
     """Return the uniform block of shaders/chunks/camera.glsl, one element of CAMERA_BLOCK.
 
-    margin: how far the viewport extends beyond the image on each side, (horizontally, vertically)
-    in pixels.
+    margin: the viewport's extension beyond the image on each side, (horizontal, vertical) pixels.
     """
     camera, size = view.camera, view.size
     block = np.zeros((), CAMERA_BLOCK)
@@ -171,10 +170,10 @@ def camera_block(
     block["clip_half"] = size[0] / 2 + margin[0], size[1] / 2 + margin[1]
     block["clip_z"] = space.clip_z
     # Depth is a number's index among the floats between t_low and t_high, a piecewise linear
-    # logarithm: 24 bits then resolve t to a part in a million everywhere.
+    # logarithm, so that 24 bits resolve t to a part in a million everywhere.
     t_min, t_max = camera.t_range
     t_low, t_high = max(space.t_low, 0.99 * t_min), min(space.t_high, 1.01 * t_max)
-    if view.face is not None:  # whose range is along other rays
+    if view.face is not None:  # the lens's range is along other rays
         t_low, t_high = space.t_low, space.t_high
         block["plane"], block["unit"] = view.face.plane, view.face.unit
     low, high = (int(np.float32(t).view(np.int32)) for t in (t_low, max(t_high, 2 * t_low)))
@@ -227,7 +226,7 @@ def triangle_rows(
             size = np.abs(rows[:, 0]) + np.abs(rows[:, 1]) + np.abs(rows[:, 2])
         is_unseen = ~(size < 1e30)
         if flat.single_sided.any():
-            # A back: the ray goes along the normal, or the eye is behind the plane.
+            # A back is hit if the ray goes along the normal, or the eye is behind the plane.
             is_back = scale < 0 if is_parallel else scale > 0
             owners = flat.face_object[first + start : first + start + len(rows)]
             is_unseen |= is_back & (flat.single_sided[owners] > 0)
@@ -256,7 +255,7 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
     linear, place = flat.world_from_object[:, :3, :3], flat.world_from_object[:, :3, 3]
     from_eye = place - space.eye
     eye = np.einsum("nij,nj->ni", setup.object_from_world, -from_eye)
-    # Round the anchor first: the difference from a vertex then has no other rounding.
+    # Round the anchor first, so that the difference from a vertex has no other rounding.
     low, high = flat.object_bounds[:, 0], flat.object_bounds[:, 1]
     rows[:, ROW_INSIDE, :3] = np.minimum(np.maximum(eye, low), high)
     rows[:, ROW_INSIDE, 3] = space.near
@@ -265,7 +264,7 @@ def object_rows(flat: FlatScene, setup: SceneSetup, space: ImageSpace) -> NDArra
     rows[:, ROW_FROM_NEAR, :3] = turned + (place - space.near_point)
     rows[:, ROW_IMAGE : ROW_IMAGE + 3, :3] = space.image_from_world[:, :3] @ linear
     cell = np.einsum("nij,nj->ni", flat.cells[:, :, :3], turned + place) + flat.cells[:, :, 3]
-    # Cells repeat with period 2: subtract even integers, to keep the digits of the rest.
+    # Cells repeat with period 2, so subtract even integers to keep the digits of the rest.
     rows[:, ROW_CELLS:, 3] = cell - 2 * np.floor(cell / 2)
     return rows
 

@@ -1,4 +1,4 @@
-"""Shader sources: included chunks, constants, and driver messages with our files and lines.
+"""Shader sources: included chunks, constants, and driver messages with files and lines.
 
 ShaderSource resolves the `#include "chunks/name.glsl"` of shaders/, inserts constants, and maps the
 lines in a driver's message back to a file and line.
@@ -28,7 +28,7 @@ Constant = bool | int | float | Vec3 | tuple[Vec3, ...]
 def read_shader(name: str) -> str:
     """Return the text of shaders/`name`, from the checkout or from the installed package.
 
-    Not by the package's name: a notebook's folder may have a package shaders of its own.
+    The package's name is not used, because a notebook's folder may have its own package shaders.
     """
     try:
         return (Path(__file__).parents[2] / "shaders" / name).read_text("utf-8")
@@ -40,8 +40,8 @@ class ShaderSource:
     """The text of one shader stage with its chunks included, each once.
 
     name: a file under shaders/. constants: declared after the first line, #version, together with
-    those of shared_numbers that the text uses. places: (file, line) of each line of the text:
-    drivers count lines of the text, and some lose the string number of a #line. Raises LucidaError
+    those of shared_numbers that the text uses. places: (file, line) of each line of the text,
+    because drivers count its lines, and some lose the string number of a #line. Raises LucidaError
     for a file that is missing.
     """
 

@@ -1,4 +1,4 @@
-"""Axis-aligned boxes, as lowest and highest corners: of points, and around transformed boxes."""
+"""Axis-aligned boxes of points, and around transformed boxes, as lowest and highest corners."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ F64 = NDArray[np.float64]
 
 def extent(vertices: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
     """Return the lowest and the highest corner (3,) of points (n, 3), n > 0, in C order."""
-    # Many numbers a row: along rows of three, NumPy takes ten times as long.
+    # Use long rows, because NumPy takes ten times as long along rows of three.
     whole = len(vertices) // 64 * 64
     parts = [vertices[whole:]]
     if whole:

@@ -1,17 +1,16 @@
 """A scene as flat arrays: the one form that both renderers read.
 
-FlatScene defines the arrays' layout. The rasterizer uploads these arrays as textures, the tracer's
-kernel
-indexes them: neither sees a SceneObject.
+FlatScene defines the arrays' layout. The rasterizer uploads these arrays as textures, and the
+tracer's kernel indexes them, so neither uses SceneObjects.
 
-The world is float64, and float32 is only ever a distance from something near. A mesh's vertices are
-float32 in the object's own space, from the object's origin; the place of that in the world is a
-float64 matrix. To get a world point, compose it in float64 and take it relative to the eye, or to
-something near the eye, before it becomes float32. So a scene a million units from the world's
-origin looks as it does at the origin, and all renderers see the very same triangles. float64
-itself ends where a step of it is visible: at 1e9 units it is 1e-7 units.
+The world is float64; float32 only holds distances from a near point. A mesh's vertices are float32
+in the object's own space, relative to its origin; a float64 matrix places them in the world.
+Compute a world point in float64, and make it relative to a point at or near the eye, before
+converting it to float32. A scene a million units from the world's origin therefore looks as it does
+at the origin, and all renderers use the same triangles. float64 has its limit where its steps
+become visible: at 1e9 units, they are 1e-7 units.
 
-A primitive is a triangle or a sphere: triangles have the numbers 0 to m - 1, in the order of the
+A primitive is a triangle or a sphere. Triangles have the numbers 0 to m - 1, in the order of the
 objects, and sphere s has the number m + s.
 """
 
@@ -47,8 +46,8 @@ BLOCK = 4096  # normals at a time, so that intermediate results stay in the cach
 
 
 class FlatScene(NamedTuple):
-    """Arrays in C order, read-only; any of them may have length 0. A hidden object has its rows by
-    number, and no vertices, faces or sphere.
+    """Arrays in C order, read-only; any of them may have length 0. A hidden object keeps its rows,
+    but has no vertices, faces or sphere.
 
     vertices (n, 3): float32, in the space of their object
     normals (n, 3; 0: flat), colors (n, 3): float32, world space, linear light
@@ -60,20 +59,20 @@ class FlatScene(NamedTuple):
     object_bounds (objects, 2, 3): float64, lowest and highest corner in its own space
     world_from_object (objects, 4, 4): float64; a sphere's own space begins at its centre
     materials (objects, 3, 4): float32, diffuse rgb, shininess | specular rgb, the pattern: PLAIN,
-        CHECKERED or TEXTURED | of a checker the other cells' diffuse rgb, 0; of a texture a, b, c,
-        d, by which (u, v) are the texel coordinates (a u + b, c v + d)
+        CHECKERED or TEXTURED | for a checker, the other cells' diffuse rgb, 0; for a texture, a, b,
+        c, d: (u, v) has the texel coordinates (a u + b, c v + d)
     cells (objects, 3, 4): float64, cell_from_world, an affine map of world points to checker cells:
         the cell of point p is floor(cell_from_world p), and a cell whose three numbers have an odd
         sum takes the other diffuse
     uv (n, 2): float32, vertices' texel coordinates, column and row from the upper left corner of
-        their object's image; 0 where it has none. The shape is (0, 2) if no object has any
+        their object's image; 0 if it has none. The shape is (0, 2) if no object has any
     textures (objects, 2, 4): int32, first texel, width, height and wraps (shared_numbers) of each
-        object's image, 0 where it has none | the first texels of two more images of that size, or
-        -1: the specular light, which multiplies the material's; and the opacity, less than 0 where
-        there is a hole; -1, -1
+        object's image, 0 if it has none | the first texels of two more images of that size, or -1:
+            the specular light, which multiplies the material's, and the opacity, negative in holes;
+            -1, -1
     texels (k,): int32, packed_texels() of all images, or packed_opacity(), one after another; each
         image has one more column and one more row, which repeat the texels that follow there
-    single_sided (objects,): uint8, 1 where triangles are seen on one side only (model.py)
+    single_sided (objects,): uint8, 1 if triangles are visible on one side only (model.py)
     lights (l, 2, 4): float64 (float32 from lights_from()), x, y, z, 1 if a point, 0 if a unit
         direction towards the light | rgb, 0
     ambient (3,), background (3,): float32
@@ -144,14 +143,14 @@ def flatten(scene: Scene, known: tuple[Scene, FlatScene] | None = None) -> FlatS
 
 
 def same_places(scene: Scene, old: Scene) -> list[int]:
-    """Return for each object of a scene one of the old scene with the same arrays at the same
-    place, both visible; -1 if there is none.
+    """Return, for each object of a scene, the number of a visible one in the old scene with the
+    same arrays and place, or -1.
     """
     return _same(scene, old, lambda mesh: (_arrays(mesh), mesh.transform.tobytes()))
 
 
 def same_meshes(scene: Scene, old: Scene) -> list[int]:
-    """Return the same for objects at any place."""
+    """Return same_places() regardless of the objects' places."""
     return _same(scene, old, _arrays)
 
 
@@ -200,7 +199,7 @@ def _shapes(scene: Scene) -> list[Shape]:
 
 
 def _layout_of(scene: Scene) -> list[tuple[int, ...]]:
-    """Return for each object a key of its arrays: one number for a sphere, none if it is hidden."""
+    """Return a key of each object's arrays: one number for a sphere, () if it is hidden."""
     return [() if entry.hidden else _arrays(entry.shape) for entry in scene.objects]
 
 
@@ -265,7 +264,7 @@ def _checked_boxes(scene: Scene, world_from_object: F64, object_bounds: F64) -> 
 
 
 def _normals(scene: Scene, old: FlatScene | None, world_from_object: F64) -> F32:
-    """Return the world normals. Objects that are not turned keep those that are known."""
+    """Return the world normals. Objects that have not been rotated keep known ones."""
     turns = world_from_object[:, :3, :3]
     if old is not None and np.array_equal(turns, old.world_from_object[:, :3, :3]):
         return old.normals
@@ -314,7 +313,7 @@ def _material_rows(scene: Scene, textures: I32) -> F32:
 def _cell_rows(scene: Scene, world_from_object: F64) -> F64:
     size = np.array([(e.material.checker or Checker()).size for e in scene.objects])
     rows = np.linalg.inv(world_from_object)[:, :3] / size[:, None, None]
-    # The half cell puts an object's own planes (a floor's y = 0) in the middle of a cell.
+    # Half a cell moves an object's own planes (a floor's y = 0) to the middle of a cell.
     rows[:, :, 3] += 0.5
     return rows
 

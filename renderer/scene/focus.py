@@ -1,6 +1,6 @@
 """The subject of a scene: a point to orbit, its reach, and the objects to frame.
 
-Pure. A floor or a sky is not framed: it is only the background.
+Pure. A floor or a sky is background, and not framed.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .model import Scene, SceneObject, Sphere
 
 Points = NDArray[np.float64]
 
-SURROUNDING = 3.0  # times the usual object's size: a larger one around the rest is a floor
+SURROUNDING = 3.0  # times the median object's size; a larger one around the rest is a floor
 
 
 def _nothing() -> Points:
@@ -29,7 +29,7 @@ class Focus:
     """The subject of a scene.
 
     center: world space.
-    reach: the sensible range of the eye from there, world units.
+    reach: a sensible distance of the eye from it, world units.
     framed: corners (n, 3) that a picture of the scene must contain.
     bounds: the 8 corners of a box around everything. Both are in world space, and empty in an empty
     scene.
@@ -77,8 +77,8 @@ def object_corners(entry: SceneObject) -> Points:
 
 
 def _things(radii: list[float], corners: list[Points]) -> list[int]:
-    """Return the indices of the objects that are not a floor, ground or sky; all, if there are no
-    others.
+    """Return the indices of the objects that are not a floor, ground or sky, or all if none is
+    left.
     """
     usual = sorted(radii)[(len(radii) - 1) // 2]
     kept = [k for k, radius in enumerate(radii) if radius <= SURROUNDING * usual]

@@ -80,10 +80,10 @@ class Checker:
 class Material:
     """Blinn and Phong's shading: diffuse and specular reflectance, and the highlight's exponent.
 
-    One pattern: none, a checker, or a texture, whose colours diffuse multiplies. metal: a map of
+    The pattern is a checker, a texture, whose colours diffuse multiplies, or none. metal: a map of
     the parts that are metal; specular is then the reflectance of the other parts. cutout and
     single_sided apply only to triangles. There is a hole where the texture's opacity is less than
-    cutout. Single-sided triangles are seen only from the side on which their corners are
+    cutout. Single-sided triangles are visible only from the side on which their corners are
     counter-clockwise in the object's space, but still cast shadows.
     """
 
@@ -98,9 +98,7 @@ class Material:
 
     @property
     def image(self) -> Texture | None:
-        """Return the image that is looked up on the surface: the texture, or white if there is only
-        a metal.
-        """
+        """Return the image on the surface: the texture, or white if there is only a metal."""
         return self.texture or (WHITE if self.metal is not None else None)
 
     def __post_init__(self) -> None:
@@ -123,8 +121,8 @@ class Material:
 
 
 def without_metal(material: Material) -> Material:
-    """Return a material without a metal that looks alike from far away, with the same texture, if
-    any.
+    """Return a material without a metal and with the same texture, if any, that looks alike from
+    far away.
     """
     if material.metal is None or material.image is None:
         return material

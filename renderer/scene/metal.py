@@ -1,8 +1,8 @@
 """Metalness and roughness: a physically based material in Blinn's and Phong's terms.
 
 A base colour is split into diffuse and specular reflectance. A metal's highlight has its base
-colour, and little of it is diffuse; anything else reflects a few percent, and is all diffuse. The
-weights make mean colours like those of microfacets (f3d).
+colour, and little of it is diffuse; any other surface reflects a few percent, and is otherwise
+diffuse. The weights yield mean colours like those of microfacets (f3d).
 Source: Karis, "Specular BRDF Model Reference", 2013 (the exponent).
 """
 
@@ -20,12 +20,12 @@ from lucida.renderer.system.errors import LucidaError
 
 from .texture import packed_light
 
-DIELECTRIC = 0.04  # the reflectance of anything but a metal, seen head on
-# The diffuse part of a metal's base colour: it replaces the reflection of surroundings, which a
-# scene does not have.
+DIELECTRIC = 0.04  # the reflectance of non-metals, seen head on
+# The diffuse part of a metal's base colour, in place of the reflection of surroundings that a scene
+# does not have.
 METAL_DIFFUSE = 0.3
-SMOOTHEST = 0.05  # with less roughness, the highlight is smaller than any exponent allows
-NARROW = 14.0  # an exponent plus 2 from which on a highlight has its full strength
+SMOOTHEST = 0.05  # less roughness needs too large an exponent
+NARROW = 14.0  # highlights have full strength if exponent + 2 is at least this
 
 ROWS = 256  # of an image at a time, so that intermediate results stay small
 
@@ -37,11 +37,11 @@ Floats = NDArray[np.floating]
 
 @dataclass(frozen=True, eq=False)
 class Metal:
-    """A map of metalness and roughness, as in glTF. It covers what the texture covers.
+    """A map of metalness and roughness, as in glTF, over the same area as the texture.
 
     texels: uint8 (height, width, 3), of which green is the roughness and blue the metalness;
     read-only; EVERYWHERE for a uniform surface. metalness, roughness: factors of these, 0 to 1.
-    file: where it was read from; None for one that was made, or is inside another file.
+    file: the image file; None for an image that was made, or is inside another file.
     """
 
     texels: NDArray[np.uint8] = field(default_factory=lambda: EVERYWHERE, repr=False)
@@ -58,8 +58,8 @@ class Metal:
 
     @property
     def is_everywhere(self) -> bool:
-        """Return True if the whole surface is a metal, given by its two numbers. This also works
-        for a metal from another process.
+        """Return True if two numbers describe the whole surface, even after a copy between
+        processes.
         """
         return self.texels.shape == EVERYWHERE.shape and bool((self.texels == EVERYWHERE).all())
 
@@ -85,7 +85,7 @@ def reflectances(
 
     metalness, roughness: numbers, or (..., 1). specular: of the parts that are not metal.
     """
-    # A wide highlight would reflect too much light: Blinn and Phong's is not normalized.
+    # A wide highlight would reflect too much light, because Blinn and Phong's is not normalized.
     strength = np.minimum((exponent(roughness) + 2) / NARROW, 1.0)
     diffuse = base * (1 - (1 - METAL_DIFFUSE) * metalness)
     return diffuse, strength * (specular + (base - specular) * metalness)

@@ -43,15 +43,15 @@ class FileEntry:
 
 
 class SavedFile:
-    """The contents of a scene's file when this program last read or wrote it.
+    """The contents of a scene's file when it was last read or written.
 
-    All versions that editing makes of a scene share it, including those that undo restores: when
-    one is saved, all know it. Only saving changes it, on one window's thread at a time.
+    All edited versions of a scene share it, including those that undo restores, so that saving one
+    updates all. Only saving changes it, on one window's thread at a time.
 
-    path: None while there is no such file.
-    text: the file's own, the basis for writing another one; "" for none.
+    path: None if there is no such file yet.
+    text: the file's text, the basis for writing another one; "" for none.
     tables: its contents; None for none yet.
-    keys: of its objects and of its lights, in their order there.
+    keys: of its objects and of its lights, in the file's order.
     """
 
     def __init__(
@@ -92,7 +92,7 @@ class Origin:
 
     @cached_property
     def places(self) -> dict[int, tuple[ItemKind, int]]:
-        """Return for each key the list of the tables that the item is in, and its index there."""
+        """Return the list of tables and the index of each item, by its key."""
         kinds: tuple[ItemKind, ItemKind] = ("objects", "lights")
         return {
             key: (kind, number)

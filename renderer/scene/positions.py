@@ -1,6 +1,4 @@
-"""The transform of a flat scene's vertices into the world, in float64, and the point near the eye
-that float32 numbers are relative to.
-"""
+"""World positions of a flat scene's vertices in float64, and the near point for float32 numbers."""
 
 from __future__ import annotations
 
@@ -22,10 +20,10 @@ def world_vertices(flat: FlatScene, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
 
 
 def object_vertices(flat: FlatScene, number: int, origin: ArrayLike = (0.0, 0.0, 0.0)) -> F64:
-    """Return those of one object."""
+    """Return one object's vertices in the world, relative to `origin`."""
     matrix, (first, count) = flat.world_from_object[number], flat.object_vertices[number]
-    # Column by column: a product of matrices may round equal vertices differently, and tear a mesh
-    # open where it has several at one place.
+    # Work by columns, because a matrix product may round equal vertices differently, which would
+    # tear a mesh open where it has several at one place.
     x, y, z = np.hsplit(flat.vertices[first : first + count], 3)
     turned = x * matrix[:3, 0] + y * matrix[:3, 1] + z * matrix[:3, 2]
     world: F64 = turned + (matrix[:3, 3] - origin)
@@ -41,8 +39,8 @@ def world_corners(flat: FlatScene, triangles: NDArray[np.integer]) -> F64:
 
 
 def near_point(flat: FlatScene, eye: ArrayLike) -> F64:
-    """Return the point (3,) of the scene's bounds that is nearest to the eye. float32 numbers of no
-    object in particular, such as lights and hits, are relative to it.
+    """Return the point (3,) of the scene's bounds that is nearest to the eye. float32 numbers
+    that belong to no object, such as lights and hits, are relative to it.
     """
     point: F64 = np.clip(np.asarray(eye, np.float64), *flat.bounds)
     return point

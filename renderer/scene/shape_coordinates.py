@@ -1,7 +1,7 @@
 """Texture coordinates of procedural shapes, computed from their corners' positions.
 
-schema.py documents them for users. A vertex on a seam, where its faces show different places of the
-image, becomes several.
+schema.py documents them for users. A vertex on a seam is duplicated, because its faces show
+different places of the image.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ CAP = 1 - 1e-6  # the least y of a unit normal at an end of a cylinder or a cone
 
 
 def on_box(mesh: Mesh) -> Mesh:
-    """Show the whole image on each side; upright on the four around y, with its lower edge in front
-    (+z) above, and behind below.
+    """Show the whole image on each side. It is upright on the four sides around y; its lower edge
+    is in front (+z) on the upper side, and behind on the lower one.
     """
     corners, normals = _corners(mesh)
     low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
@@ -74,8 +74,8 @@ def _flat(mesh: Mesh, corners: Floats) -> Floats:
 
 
 def _around(corners: Floats) -> Floats:
-    """Return u (m, 3): 1/2 towards z, growing towards x. On the axis it is the mean of the other
-    corners'.
+    """Return u (m, 3): 1/2 towards z, growing towards x. A corner on the axis has the mean of the
+    others.
     """
     x, z = corners[..., 0], corners[..., 2]
     u = _unwrapped(0.5 + np.arctan2(x, z) / (2 * np.pi), np.hypot(x, z) > 0)

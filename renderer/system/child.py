@@ -17,13 +17,13 @@ from pathlib import Path
 
 from .errors import LucidaError
 
-_NICENESS = 2  # the window has priority
+_NICENESS = 2  # lower priority than the window
 _START = "import sys, json; sys.path[:] = json.loads(sys.argv[1]); "
 _START += "from importlib import import_module; import_module(sys.argv[2]).main(*sys.argv[3:])"
 
 REMEDY = "start processes by spawn: multiprocessing.get_context('spawn')"
 
-_watching = 0  # the process that watches its parent: this one, or the one it was forked from
+_watching = 0  # id of the process that watches its parent, perhaps inherited by a fork
 
 
 def interpreter() -> str | None:
@@ -38,8 +38,8 @@ def interpreter() -> str | None:
 def child_command(python: str, module: str, *arguments: str) -> list[str]:
     """Return the command that calls main(*arguments) of a module in a child process.
 
-    The child runs in isolated mode: otherwise Python would search the current folder for modules
-    first, where a user's files may include anything, even a `json.py`.
+    The child runs in isolated mode. Otherwise, Python would first search the current folder for
+    modules, where a user may have any file, even a `json.py`.
     """
     options = ["-I", "-X", f"utf8={sys.flags.utf8_mode}"]
     if sys.dont_write_bytecode:
@@ -50,10 +50,9 @@ def child_command(python: str, module: str, *arguments: str) -> list[str]:
 
 
 def import_path() -> list[str]:
-    """Return this process's sys.path, absolute; without the current folder, unless it contains our
-    packages.
+    """Return this process's sys.path, absolute, without a current folder that lacks our packages.
 
-    In an interactive Python, in a notebook and with `python -m`, sys.path has the current folder.
+    sys.path has the current folder in an interactive Python, in a notebook and with `python -m`.
     """
     try:
         here = os.path.realpath(os.getcwd())
@@ -77,7 +76,7 @@ def start_child(python: str, module: str, *arguments: str) -> subprocess.Popen[b
     if sys.platform == "win32":
         flags = subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NO_WINDOW
         flags |= subprocess.CREATE_NEW_PROCESS_GROUP
-    # A separate process group: Ctrl-C goes to this process, which ends the child.
+    # The child has a separate process group, so that Ctrl-C goes only to this process.
     return subprocess.Popen(
         child_command(python, __name__, module, *arguments),
         stdin=subprocess.PIPE,
@@ -89,8 +88,8 @@ def start_child(python: str, module: str, *arguments: str) -> subprocess.Popen[b
 
 
 def end_child(process: subprocess.Popen[bytes]) -> int:
-    """Kill the process if it is still running, close its input, and return its exit status. May be
-    called again.
+    """Kill the process if it is still running, close its input, and return its exit status. Safe to
+    call twice.
     """
     process.kill()
     status = process.wait()
@@ -101,7 +100,9 @@ def end_child(process: subprocess.Popen[bytes]) -> int:
 
 
 def main(module: str, *arguments: str) -> None:
-    """Run a child of start_child(). Watch the parent first: it may end before all is imported."""
+    """Run a child of start_child(). Watch the parent first, because it may end during the
+    imports.
+    """
     if sys.platform != "win32":
         end_with_parent()
     import_module(module).main(*arguments)
@@ -110,9 +111,9 @@ def main(module: str, *arguments: str) -> None:
 def end_with_parent() -> None:
     """Lower the priority of this child process, and end it when its input ends.
 
-    A child calls this as soon as its libraries are loaded. Only Windows has to wait for that:
-    there, loading a library blocks while a thread reads input. On other systems main() has called
-    it already.
+    A child calls this as soon as its libraries are loaded. Only Windows needs to wait for that,
+    because loading a library blocks there while a thread reads input. On other systems, main() has
+    already called this.
     """
     global _watching
     if _watching == os.getpid():

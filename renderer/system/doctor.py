@@ -1,7 +1,6 @@
-"""Checks of which parts of Lucida work on this machine, and what to install for the rest.
+"""Checks of the parts of Lucida on this machine, with remedies for those that fail.
 
-Each check runs in its own process with a time limit, so that a driver that crashes or hangs does no
-other harm.
+Each check runs in its own process with a time limit, in case a driver crashes or hangs.
 """
 
 from __future__ import annotations
@@ -46,7 +45,7 @@ class Check:
 
 
 def report(timeout_s: float = TIMEOUT_S) -> list[Check]:
-    """Return all checks: the OpenGL platforms first, best first; then the other parts."""
+    """Return all checks: the OpenGL platforms, best first, and then the other parts."""
     names = (*candidates(), *(name for name in PARTS if name not in PLATFORMS))
     with ThreadPoolExecutor(2) as pool:
         return list(pool.map(lambda name: check(name, timeout_s), names))
@@ -177,7 +176,7 @@ def _is_not_hidden() -> str:
     ]
     if hiding:
         raise RuntimeError(f"Python imports {' and '.join(hiding)} of this folder instead")
-    return "no file in this folder hides them"
+    return "no file in this folder hides the modules"
 
 
 def _installed(package: str) -> str:
@@ -188,9 +187,9 @@ def _installed(package: str) -> str:
 
 @dataclass(frozen=True)
 class Part:
-    """A part of Lucida that may not work here. packages.remedy(name) has what to install for it.
+    """A part of Lucida that may not work here. packages.remedy(name) returns the remedy.
 
-    check: returns versions or a place, or raises an exception with the problem.
+    check: returns versions or a path, or raises an exception with the problem.
     """
 
     purpose: str

@@ -1,4 +1,4 @@
-"""The exception for all user errors: what is wrong, where, and the remedy.
+"""The exception for all user errors, with the place, the problem and the remedy.
 
 The command line prints it and exits with status 2; the window shows it.
 """
@@ -9,7 +9,7 @@ import contextlib
 import re
 from collections.abc import Iterator
 
-# Limits on characters shown: a file can make these texts arbitrarily long.
+# Limits on the characters shown, because a file can make these texts arbitrarily long.
 LONGEST_FIELD = 200
 LONGEST_PART = 800
 
@@ -18,7 +18,7 @@ class LucidaError(ValueError):
     """A user error, reported in one line: `source: field: problem; remedy`.
 
     field: the path of the offending value, such as "camera.w"; "" if there is none. problem: the
-    broken rule, with the value. remedy: what to do. source: the file.
+    broken rule, with the value. remedy: the advice. source: the file.
     """
 
     def __init__(self, field: str, problem: str, remedy: str = "", source: str = "") -> None:
@@ -47,7 +47,7 @@ class LucidaError(ValueError):
 
     def at_its_line(self, source: str) -> LucidaError:
         """Return the same error in a file. A field `line 5, column 9` becomes `file:5: column 9`,
-        as editors find it.
+        the form that editors open.
         """
         place = re.fullmatch(r"line (\d+)(?:, (column \d+))?", self.field)
         if place is None:
@@ -71,7 +71,7 @@ def under(field: str, sign: str = ".") -> Iterator[None]:
 
 @contextlib.contextmanager
 def errors_as(field: str) -> Iterator[None]:
-    """Give errors raised inside this field."""
+    """Assign this field to errors raised inside."""
     try:
         yield
     except LucidaError as error:

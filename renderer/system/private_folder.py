@@ -1,4 +1,4 @@
-"""Folders that only this user can have written to: for files that are trusted as code."""
+"""Folders that only this user can write to, for files that are trusted as code."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
 
 
 def private_folder(folder: Path) -> Path:
-    """Return the folder, links followed. It and its missing parents are created for this user only.
+    """Return the folder after following links. Create it, and missing parents, for this user only.
 
     Raises LucidaError if another user could write to it, now or by replacing a folder above it;
     OSError if it cannot be created.
@@ -29,10 +29,9 @@ def private_folder(folder: Path) -> Path:
 def _check(folder: Path) -> None:
     """Raise LucidaError if another user can write to the folder, or replace one above it.
 
-    On Windows nothing is checked: it has no such owners and permissions, and a user's folders are
-    private. Folders above may belong to the administrator, whom no permissions keep out. They may
-    also be writable for everybody if they are sticky, like /tmp: only an entry's owner can then
-    rename or delete it.
+    Nothing is checked on Windows, where a user's folders are private. Folders above may belong to
+    the administrator, whom no permissions keep out. They may also be writable for everybody if they
+    are sticky, like /tmp, because only an entry's owner can then rename or delete it.
     """
     if not hasattr(os, "geteuid"):
         return
@@ -45,7 +44,7 @@ def _check(folder: Path) -> None:
         is_above = path != folder
         if status.st_uid != user and not (is_above and status.st_uid == 0):
             problem = f"{path} belongs to somebody else"
-            raise LucidaError("", problem, "choose another folder", str(folder))
+            raise LucidaError("", problem, "give another folder", str(folder))
         if status.st_mode & _OTHERS_WRITE and not (is_above and status.st_mode & stat.S_ISVTX):
             problem = f"others can write into {path}"
             raise LucidaError("", problem, f"chmod go-w '{path}'", str(folder))

@@ -6,7 +6,7 @@ The name marks the part in the cache folder, and another process compiles a part
     walk-...   finds the closest hits of an image's viewing rays, in a variant (tiles/variants.py)
     write-...  shades those hits, in the same variant
     lens       computes the frames of a lens's tiles
-    rays       traces rays that a user hands in
+    rays       traces rays that a user passes
     shade      shades the hits of such rays
     reference  traces images by the simple method
 """

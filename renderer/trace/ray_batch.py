@@ -23,7 +23,7 @@ class RayBatch:
         rays = _vectors("origins", origins), _vectors("directions", directions)
         if len(rays[0]) != len(rays[1]):
             problem = f"are {len(rays[1])}"
-            raise LucidaError("directions", problem, f"give {len(rays[0])}: one a ray")
+            raise LucidaError("directions", problem, f"give {len(rays[0])}: one per ray")
         self.method, self._arguments = method, (*rays, float(t_min), float(t_max))
         self.finished = threading.Event()
         self._answer: Any = None
@@ -41,9 +41,7 @@ class RayBatch:
         self.finished.set()
 
     def stop(self) -> None:
-        """Do nothing: a running batch is always finished, since it takes no longer than an
-        image.
-        """
+        """Do nothing: a running batch always finishes, because it takes no longer than an image."""
 
     def cancel(self) -> None:
         """End a waiting batch, with an error."""

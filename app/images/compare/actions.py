@@ -1,4 +1,4 @@
-"""The actions of the compare view: its modes, the marks, steps from pixel to pixel."""
+"""The actions of the compare view: its modes, its marks, and steps from pixel to pixel."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MENU = "Image/Compare"
 
 
 def _step(forward: bool) -> Callable[[Host], None]:
-    """Return the step to a differing pixel; it does nothing until these are known."""
+    """Return the action's step to a differing pixel, which does nothing until they are known."""
 
     def run(window: Host) -> None:
         verdict = window.renderers.verdict(window.state)

@@ -22,7 +22,7 @@ SWATCH = int(imgui.ColorEditFlags_.no_tooltip | imgui.ColorEditFlags_.no_drag_dr
 
 
 def toolbar(host: Host) -> None:
-    """Draw modes, gain and the switch of the causes, in as many rows as they need."""
+    """Draw the modes, the gain and the switch for causes, in as many rows as they need."""
     options = host.options.compare
     box = imgui.get_frame_height() + imgui.get_style().item_inner_spacing.x
     for number, (mode, name, told) in enumerate(MODES):
@@ -54,8 +54,8 @@ def toolbar(host: Host) -> None:
 
 
 def verdict(host: Host, text: str, color: ImVec4, comparison: Comparison | None) -> None:
-    """Draw the result in one line, and below it the causes that occur, the worst first, each with
-    its count. A click goes to the next of its pixels. comparison: None until it is known.
+    """Draw the result in one line, and below it the causes that occur with their counts, the worst
+    first. A click on a cause goes to the next of its pixels. comparison: None until it is known.
     """
     imgui.push_font(host.fonts.bold, 0.0)
     shown = fitting_words(text, imgui.get_content_region_avail().x)
@@ -64,7 +64,7 @@ def verdict(host: Host, text: str, color: ImVec4, comparison: Comparison | None)
     if shown != text:
         tip(text)
     swatch, room = imgui.get_frame_height(), imgui.get_content_region_avail().x
-    imgui.dummy(ImVec2(0, swatch))  # always one row: another height would be another image
+    imgui.dummy(ImVec2(0, swatch))  # always one row, because another height would change the image
     found = comparing.counts(comparison) if comparison is not None else {}
     for cause in reversed(comparing.LABELS):
         text = f"{cause.name} {found.get(cause.label, 0)}"

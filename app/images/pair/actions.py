@@ -1,6 +1,6 @@
-"""The actions of the menu "Image": what both images show, how large, how magnified.
+"""The actions of the menu "Image": the channel, size and magnification of both images.
 
-Their keys are Alt and a letter or digit, as far as they have any.
+Their keys, if any, are Alt and a letter or digit.
 """
 
 from __future__ import annotations
@@ -85,11 +85,11 @@ IMAGE = (
             "images.samples",
             count,
             separated=count == 1,
-            tip="Of the ray image at rest: its pixels show their mean. Compared are the centres.",
+            tip="The resting ray image shows the mean of the samples. The comparison uses centres.",
         )
         for count in SAMPLES
     ),
-    _magnification(None, "Fit", "Alt+0", "All of the image in its window."),
+    _magnification(None, "Fit", "Alt+0", "Show the whole image in its window."),
     Action(MAGNIFY, "Magnify", _step(1), "Alt++"),
     Action(MAGNIFY, "Reduce", _step(-1), "Alt+-"),
     *(
@@ -109,7 +109,7 @@ IMAGE = (
         "Alt+X",
         off=False,
         separated=True,
-        tip="Lines from 8x on, numbers from 32x on.",
+        tip="Shows lines from 8x on, and numbers from 32x on.",
     ),
     Action("Image", "Brighter", _exposure(0.5), "+", separated=True),
     Action("Image", "Darker", _exposure(-0.5), "-"),
@@ -121,7 +121,7 @@ IMAGE = (
         "linear",
         "Alt+L",
         off="srgb",
-        tip="On: linear light as it is, too dark. Off: through the curve that screens expect.",
+        tip="Shows linear light without the sRGB curve, which is too dark.",
     ),
     choosing(
         "Image",
@@ -138,7 +138,7 @@ IMAGE = (
             name,
             "one_based",
             from_one,
-            can=lambda window: window.state.step is None,  # a lecture's text counts in its own way
+            can=lambda window: window.state.step is None,  # a lecture has its own numbering
         )
         for name, from_one in (("Pixels from 1 (lecture)", True), ("Pixels from 0 (arrays)", False))
     ),
@@ -147,7 +147,7 @@ IMAGE = (
         "Clear mark",
         changing(lambda state: state.with_options(replace(state.options, marked=None))),
         "Esc",
-        binds=False,  # the shell handles Escape, which ends other things first
+        binds=False,  # the shell handles Escape, which closes other things first
         can=lambda w: w.state.marked is not None,
     ),
 )
@@ -155,8 +155,8 @@ MOUSE = (
     ("drag an image", "turn the camera about the point under the pointer"),
     ("Shift+drag, right or middle drag", "move the camera; the point follows the pointer"),
     ("wheel", "closer and farther (parallel: a smaller or larger viewport)"),
-    ("click an image", "mark the pixel; again, or Esc: clear the mark"),
-    ("arrow keys, mouse over an image", "move the mark; Shift: by ten"),
+    ("click an image", "mark the pixel; click again, or Esc, clears the mark"),
+    ("arrow keys, mouse over an image", "move the mark; with Shift, by ten pixels"),
     ("Ctrl+wheel over an image", "magnify its pixels at the pointer"),
     ("Ctrl+drag an image", "move the magnified image"),
 )

@@ -24,8 +24,8 @@ NORMAL = (("normal x", "#ff7a6b"), ("normal y", "#6fd36f"), ("normal z", "#7aa8f
 def draw_legend(
     draw: imgui.ImDrawList, screen: Screen, state: AppState, depths: tuple[float, float] | None
 ) -> None:
-    """Draw the meaning of a channel's colours in the lower left corner of the window: each word on
-    a line of its own, with a square of its colour.
+    """Draw the meaning of a channel's colours in the lower left corner of the window: a line for
+    each word, with a square of its colour.
     """
     words: list[tuple[str, ImVec4]] = []
     channel, objects = state.images.channel, state.scene.visible
@@ -56,7 +56,7 @@ def draw_legend(
 def draw_note(draw: imgui.ImDrawList, screen: Screen, note: str, is_error: bool) -> None:
     """Draw a line or two of text in the middle of the image, which is darkened."""
     origin, far = screen.visible
-    draw.add_rect_filled(origin, far, theme.u32(theme.rgb("#000000", 0.5)))  # it is not of now
+    draw.add_rect_filled(origin, far, theme.u32(theme.rgb("#000000", 0.5)))  # it is outdated
     wrap = max(60.0, (far.x - origin.x) * 0.8)
     size = imgui.calc_text_size(note, wrap_width=wrap)
     at, pad = (origin + far - size) / 2, ImVec2(12, 8)

@@ -30,9 +30,9 @@ Drawn = Callable[[AppState, Placement], Picture | None]
 class Pane:
     """An image's window.
 
-    picture: asked after the mouse has moved the camera. values: of some pixels, likewise; None if
-    the image shows no channel. error, note: shown over the image, which is darkened: it is not of
-    now. legend: whether the channel's colours are explained.
+    picture: called after the mouse has moved the camera. values: of some pixels, called likewise;
+    None if the image shows no channel. error, note: shown over the outdated, darkened image.
+    legend: explain the channel's colours.
     """
 
     picture: Drawn
@@ -50,15 +50,15 @@ def draw_pane(
     hovered: Pixel | None,
     on_pixels: Callable[[Host, Screen], None],
 ) -> None:
-    """Draw the image into a room of the current window.
+    """Draw the image into a box of the current window.
 
-    hovered: the pixel under the mouse, to be framed here. on_pixels: draws below everything else.
+    hovered: the pixel under the mouse, which is framed. on_pixels: draws below everything else.
     """
     draw, state, fonts = imgui.get_window_draw_list(), host.state, host.fonts
     depths = host.renderers.depths() if stored(state.images.channel) == "depth" else None
     low, high = screen.visible
     picture = pane.picture(state, screen.placement)
-    if picture is None:  # yet: no part of it may be taken for a black image
+    if picture is None:  # not ready; the window must not look like a black image
         draw.add_rect_filled(*room, theme.u32(theme.PANEL))
     else:
         _surround(draw, room, low, high)

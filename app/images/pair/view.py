@@ -1,4 +1,4 @@
-"""The raster and the ray image, side by side and linked: one class, made twice."""
+"""The raster and the ray image, side by side and linked, as two instances of one class."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ RASTER, RAY = "Raster", "Ray"
 
 
 class PairView(ImageView):
-    """One of the two images, with its drawings and the photograph where one is open."""
+    """One of the two images, with its drawings and the open photograph, if any."""
 
     is_ray: ClassVar[bool]
 

@@ -1,5 +1,5 @@
-"""The plot of counted steps. Both axes are logarithmic: a cost that grows like n is a straight
-line that climbs one power of ten for each power of ten of n.
+"""The plot of counted steps. Both axes are logarithmic, so a cost proportional to n is a straight
+line that rises one power of ten for each power of ten of n.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from lucida.app.ui import theme
 from .recorded import COSTS, Cost, Unit
 
 MARGIN = 1.5  # around the least and the most on an axis
-AROUND_EM = 5.0  # above and below what is plotted: title, numbers, name of the axis
-TITLES_PART = 0.45  # of the width that the lines' titles may take
+AROUND_EM = 5.0  # space for the title, the numbers and the axis's name
+TITLES_PART = 0.45  # largest part of the width for the lines' titles
 
 
 class Line(NamedTuple):
@@ -33,12 +33,12 @@ class Line(NamedTuple):
 
 
 def color_of(is_ray: bool) -> ImVec4:
-    """Return orange, which rays have everywhere, or blue, which everybody can tell from it."""
+    """Return orange, the colour of rays everywhere, or blue, which differs for all viewers."""
     return theme.seen(theme.RAY if is_ray else theme.BASIS["w"])
 
 
 def draw(unit: Unit, size: ImVec2) -> None:
-    """Plot the steps of both loops, as lines with dots, their titles at the right."""
+    """Plot the steps of both loops, as lines with dots and titles at the right."""
     costs = COSTS[unit]
     columns = {name: [float(getattr(cost, name)) for cost in costs] for name in Cost._fields}
     xs = columns[unit]
@@ -64,10 +64,10 @@ def draw(unit: Unit, size: ImVec2) -> None:
     for axis, least, most in ((x, xs[0], xs[-1]), (y, low, high)):
         implot.setup_axis_scale(axis, implot.Scale_.log10)
         first, last = least / MARGIN, most * MARGIN
-        if axis == x:  # the titles' room is part of the axis
+        if axis == x:  # the titles' space is part of the axis
             last = first * (last / first) ** (1 / (1 - titles_px / (size.x - 4 * em)))
         implot.setup_axis_limits(axis, first, last, implot.Cond_.always)
-        # As many powers of ten as fit side by side.
+        # Label as many powers of ten as fit side by side.
         across = (size.x - titles_px) / 2.5 if axis == x else size.y - AROUND_EM * em
         fit = max(1.0, across / (1.5 * em))
         every = max(1, math.ceil(math.log10(most / least) / fit))
@@ -82,11 +82,11 @@ def draw(unit: Unit, size: ImVec2) -> None:
     ends = []
     for line in lines:
         dots = [implot.plot_to_pixels(*point) for point in zip(xs, line.values, strict=True)]
-        for dot in dots:  # round: ImPlot's own are polygons of ten corners
+        for dot in dots:  # ImPlot's own dots are polygons of ten corners
             color, half = theme.u32(line.color), theme.px(4.5)
             if line.is_ray:
                 drawing.add_circle_filled(dot, half, color)
-            else:  # another shape, for those who do not see the colour
+            else:  # another shape, for viewers who cannot see the colour
                 drawing.add_rect_filled(dot - ImVec2(half, half), dot + ImVec2(half, half), color)
         ends.append((dots[-1].y - line_px / 2, dots[-1].x + em, line))
     if is_titled:
@@ -102,9 +102,7 @@ def draw(unit: Unit, size: ImVec2) -> None:
 
 
 def apart(wanted: Sequence[float], least: float, low: float, high: float) -> list[float]:
-    """Return places at least `least` apart, from low to high, near the wanted ones, in their
-    ascending order.
-    """
+    """Return ascending places at least `least` apart, from low to high, near the wanted ones."""
     places: list[float] = []
     for place in wanted:
         places.append(max(place, places[-1] + least if places else low))

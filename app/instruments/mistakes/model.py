@@ -1,6 +1,6 @@
-"""The mistakes laboratory's model: the lines, those that are wrong, and what that changes.
+"""The mistakes laboratory's model: the lines, the wrong ones, and their effect on the picture.
 
-Knows no window. The lines and their mistakes are in app/checking/mistakes/.
+It knows no window. The lines and their mistakes are in app/checking/mistakes/.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def picture_size(state: AppState, images: Size) -> Size:
 def scaled_pixel(pixel: Pixel, of: Size, size: Size) -> Pixel:
     """Return the pixel at the same place in an image of another size."""
     row, column = (
-        (2 * at + 1) * new // (2 * old)  # the place of its centre
+        (2 * at + 1) * new // (2 * old)  # the pixel that contains its centre
         for at, old, new in zip(pixel, reversed(of), reversed(size), strict=True)
     )
     return row, column
@@ -110,7 +110,7 @@ def compared(painter: RayPainter, now: Situation, mistakes: Mistakes) -> Compare
 
 
 def named(program: Program, names: Iterable[str]) -> Mistakes:
-    """Return the program's mistakes with these names, in this order; at most two, which can be
+    """Return the program's mistakes with these names, in this order, but at most two that can be
     combined.
     """
     found: list[Mistake] = []
@@ -123,7 +123,7 @@ def named(program: Program, names: Iterable[str]) -> Mistakes:
 
 
 def unknown(names: Iterable[str]) -> tuple[str, ...]:
-    """Return the names that no program of a ray has."""
+    """Return the names that occur in no program of a ray."""
     known = {
         mistake.name
         for projection in ("perspective", "parallel")
@@ -134,7 +134,7 @@ def unknown(names: Iterable[str]) -> tuple[str, ...]:
 
 
 def of_line(program: Program, key: str) -> Mistakes:
-    """Return the mistakes of a line, with others or alone, the most common first."""
+    """Return the mistakes that include a line, the most common first."""
     found = (mistake for mistake in program.mistakes if key in mistake.keys)
     return tuple(sorted(found, key=lambda mistake: not mistake.is_common))
 
@@ -142,7 +142,7 @@ def of_line(program: Program, key: str) -> Mistakes:
 def switched(program: Program, names: Sequence[str], name: str) -> tuple[str, ...]:
     """Return the names after a mistake was switched on or off.
 
-    Mistakes that exclude the new one are switched off; of the others, the last one stays.
+    Mistakes that exclude the new one are switched off; the last of the others stays.
     """
     if name in names:
         return tuple(one for one in names if one != name)
@@ -157,14 +157,14 @@ def without_line(program: Program, names: Sequence[str], key: str) -> tuple[str,
 
 
 def folded(code: str, letters: int) -> list[str]:
-    """Return the code in rows of so many letters."""
+    """Return the code in rows of at most that many letters."""
     return [row for line in code.split("\n") for row in broken(line, letters)]
 
 
 def told_difference(changed: NDArray[np.bool_]) -> str:
-    """Return how much of the picture differs, in words."""
+    """Return the extent of the difference in words."""
     count = int(changed.sum())
     if count == 0:
-        return "nowhere: this camera does not tell them apart"
+        return "none: this camera does not show it"
     part = 100 * count / changed.size
     return f"{part:.0f} % of the pixels" if part >= 1 else f"{count} pixels of {changed.size}"

@@ -20,8 +20,8 @@ from lucida.app.ui.theme import Fonts
 
 from . import model
 
-LINE = 1.25  # a line's height, in parts of the type's
-INSET = 0.6  # left of the code, likewise
+LINE = 1.25  # a line's height, relative to the type's
+INSET = 0.6  # left of the code, relative to the type's height
 POPUP_ROWS = 14
 
 
@@ -34,7 +34,7 @@ class LineAnswer:
 
 
 def wrong_color() -> ImVec4:
-    """Return the text colour for a wrong line: that of its camera in the outside view."""
+    """Return the text colour for a wrong line, that of its camera in the outside view."""
     return theme.legible(role_color("other"))
 
 
@@ -69,7 +69,7 @@ def program_lines(
             draw.add_rect_filled(corner, far, theme.u32(theme.FRAME_HOVERED), theme.px(3))
         if not mistakes:  # A tooltip would hide the wrong code in the line below.
             left = line.code.partition(" = ")[0]
-            imgui.set_item_tooltip(f"what may be wrong in the line of {left}: click")
+            imgui.set_item_tooltip(f"click for possible mistakes in the line of {left}")
         wrong = wrong_color()
         with lettering(fonts.mono):
             for number, text in enumerate([*rows, *instead]):
@@ -90,7 +90,7 @@ def program_lines(
 
 
 def _vectors(draw: imgui.ImDrawList, at: ImVec2, text: str) -> None:
-    """Draw the vectors of a line once more, in the colours that they have in formulas."""
+    """Draw the vectors of a line again, in their colours in formulas."""
     letter = imgui.calc_text_size("0").x
     for column, word, name in symbols.vectors(text):
         color = theme.legible(vector_colors().get(name, theme.TEXT))

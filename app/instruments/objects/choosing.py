@@ -27,7 +27,7 @@ def chosen(state: AppState) -> tuple[Item, ...]:
 def _there(scene: Scene, items: tuple[Item, ...]) -> tuple[Item, ...]:
     try:
         return present(scene, items)
-    except LucidaError:  # made in Python: it cannot be edited
+    except LucidaError:  # a scene made in Python cannot be edited
         return ()
 
 
@@ -79,7 +79,7 @@ def item_at(scene: Scene, number: int | None) -> Item | None:
 
 def walked(state: AppState, step: int) -> AppState:
     """Return the state with the next object or light selected (step 1), or the previous one (-1),
-    in the list's order. Hidden and locked ones are skipped.
+    in the list's order. Hidden and locked items are skipped.
     """
     items = _free(state.scene)
     if not items:

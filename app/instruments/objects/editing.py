@@ -1,7 +1,7 @@
 """Edits of the scene: each takes a state and returns another one.
 
-Pure. renderer/editing/ changes the scene; here the selection follows. Raises LucidaError if
-the edit is impossible; the old state is unchanged.
+Pure. renderer/editing/ changes the scene; this module updates the selection. Edits raise
+LucidaError if they are impossible; the old state stays unchanged.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ def with_scene(state: AppState, scene: Scene, items: Sequence[Item] | None = Non
 
 
 def added(state: AppState, kind: str, focus: Focus) -> AppState:
-    """Return the state with a new object or light, in the picture, selected."""
+    """Return the state with a new, selected object or light in the picture."""
     if kind == "directional":  # it has no place
         table = objects.new_table(state.scene, kind)
         return with_scene(state, *objects.add(state.scene, table))
     place = place_for(focus, state.camera, kind in objects.LIGHTS)
     power = math.floor(math.log10(place.size))
-    size = math.floor(2 * place.size / 10**power) / 2 * 10**power  # 1, 1.5, 2, ... : no larger
+    size = math.floor(2 * place.size / 10**power) / 2 * 10**power  # round down to 1, 1.5, 2, ...
     at = [round(x, 2 - power) for x in place.at]
     table = objects.new_table(state.scene, kind, at, size)
     return with_scene(state, *objects.add(state.scene, table))
@@ -60,7 +60,7 @@ def duplicated(state: AppState, focus: Focus) -> AppState:
 
 
 def hidden(state: AppState, item: Item, is_hidden: bool) -> AppState:
-    """Return the state with an item hidden or shown; with the selection, if the item is in it."""
+    """Return the state with an item hidden or shown, or the whole selection if it is in it."""
     items = chosen(state)
     items = items if item in items else (item,)
     return with_scene(state, objects.hide(state.scene, items, is_hidden))

@@ -21,14 +21,14 @@ from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.memo import Memo
 
-LENGTH_PX, MOST_PART = 52.0, 0.24  # of a handle: at 100 %; its most, in parts of the shorter side
-WIDE_PART = 0.08  # of the view's width, where that is longer
+LENGTH_PX, MOST_PART = 52.0, 0.24  # length at 100 %; its most, as a part of the shorter side
+WIDE_PART = 0.08  # part of the view's width, if that is longer
 # ImGuizmo's own colours of x, y, z and the held handle, and their replacements.
 COLORS = {
     **dict(zip(AXES.values(), palettes.CHANNELS, strict=True)),
     HELD: theme.rgb("#ffffff"),
 }
-DIGITS = 6  # of numbers that a handle has changed
+DIGITS = 6  # significant digits of a handle's motion
 
 
 @dataclass(frozen=True)
@@ -36,9 +36,9 @@ class _HandleDrag:
     """A drag of a handle.
 
     view: the one in which it began.
-    scene, start: at its beginning, the latter the handle's place.
-    latest: the scene now.
-    place: the handle's now.
+    scene, start: the scene and the handle's place at its beginning.
+    latest: the current scene.
+    place: the handle's current place.
     """
 
     view: str
@@ -50,8 +50,8 @@ class _HandleDrag:
 
 
 class Handles:
-    """The handles of all views. problem: the reason why the dragged item does not follow; "" if it
-    does.
+    """The handles of all views. problem: the reason that the dragged item does not follow, or
+    "".
     """
 
     def __init__(self) -> None:
@@ -87,12 +87,12 @@ class Handles:
         items: tuple[Item, ...],
         reach: float,
     ) -> Scene:
-        """Draw the handles of some items into the current window. Return the scene as they have
-        moved it. reach: of the scene.
+        """Draw the handles of some items into the current window. Return the scene after
+        their motion. reach: of the scene.
         """
         drag = self._drag if self._drag is not None and self._drag.view == shown.name else None
         if drag is not None and (drag.items != items or drag.latest is not scene):
-            let_go()  # something else has changed it, such as undo
+            let_go()  # undo, for instance, has changed it
             self.forget(shown.name)
             drag = None
         elif drag is not None and escaped():
@@ -111,7 +111,7 @@ class Handles:
         if place is None or found is None:
             self.forget(shown.name)
             return scene
-        # ImGuizmo is over a handle in all views alike.
+        # ImGuizmo reports the mouse over a handle for all views at once.
         over = found.using or (found.over and imgui.is_window_hovered())
         (self._over.add if over else self._over.discard)(shown.name)
         if not found.using:
@@ -133,7 +133,7 @@ class Handles:
             return scene, drag
         try:
             found = shift(drag.scene, drag.items, way_of(drag.start, place))
-        except LucidaError as error:  # the last good one stays
+        except LucidaError as error:  # the last valid scene stays
             self.problem = error.problem
             return scene, drag
         self.problem = ""
@@ -157,8 +157,8 @@ def middle_of(scene: Scene, items: tuple[Item, ...]) -> Floats | None:
 
 
 def way_of(start: Floats, end: Floats) -> Floats:
-    """Return the way of a handle, (3,), in short numbers: ImGuizmo uses single precision, whose
-    noise would end up in the scene's file.
+    """Return a handle's motion, (3,), rounded: ImGuizmo uses single precision, whose noise would
+    get into the scene's file.
     """
     still = np.isclose(end, start, rtol=1e-6, atol=0)
     short = [float(f"{part:.{DIGITS}g}") for part in end - start]

@@ -1,6 +1,6 @@
 """The selection in the 3D views: outlines, handles, and the effect of a click.
 
-One guest for the two images, the comparison and the outside view (app/ui/guest.py).
+One guest serves the two images, the comparison and the outside view (app/ui/guest.py).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .silhouette import Outline, outer, outlines_of
 
 CHOSEN = theme.rgb("#ffa23a")
 CASING = theme.rgb("#0c0d0f", 0.7)
-WIDTH, RIM = 1.6, 1.0  # of an outline and of its casing to both sides, at 100 %
+WIDTH, RIM = 1.6, 1.0  # of an outline, and of its casing on each side, at 100 %
 MOST_VIEWS = 4  # whose outlines are kept
 
 
@@ -59,7 +59,7 @@ class InViews:
         draw = imgui.get_window_draw_list()
         low, extent = shown.origin, shown.extent
         draw.push_clip_rect(low, ImVec2(low.x + extent.x, low.y + extent.y), True)
-        self._draw_outlines(host, shown)  # no further than what the image shows
+        self._draw_outlines(host, shown)  # clipped to the image
         draw.pop_clip_rect()
         items = unlocked(state) if state.options.objects.handle == "move" else ()
         scene = self.handles.draw(shown, state.scene, items, host.focus.reach)

@@ -1,6 +1,6 @@
 """The list of the scene's objects, and the inspector: two views that can be docked.
 
-Keeps what is not in the state. outliner.py and inspector.py draw.
+This module keeps values that are not in the state. outliner.py and inspector.py draw the views.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ class ObjectsView(Instrument):
     name = OBJECTS
     title = OBJECTS
     actions = (*SCENE, *CHOOSING)
-    mouse = (("double-click an object", "select it; V: by a click; Shift: one more"),)
+    mouse = (("double-click an object", "select it (with V, one click does); Shift adds"),)
     space = layout.CAMERA_SPACE
 
     def __init__(self, views: Sequence[Instrument]) -> None:

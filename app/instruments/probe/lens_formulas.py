@@ -1,8 +1,8 @@
-r"""The way through a lens from a pixel's point to its direction, line by line, with its numbers.
+r"""The path through a lens from a pixel's point to its direction, line by line, with its numbers.
 
-Symbols: (a', b') where the pixel is on the image plane at distance 1, b downwards; (a, b) where it
-would be without distortion, r' its length; theta the angle to the axis, and (U, V) its parts; (X,
-Y, Z) the direction, Z forwards. The prime is what is distorted.
+Symbols: (a', b') the pixel's point on the image plane at distance 1, b downwards, and r' its
+length; (a, b) the point without distortion; theta the angle to the axis, and (U, V) its parts; (X,
+Y, Z) the direction, Z forwards. A prime marks distorted values.
 """
 
 from __future__ import annotations
@@ -48,7 +48,9 @@ DIRECTIONS = {  # (X, Y, Z) by the lens's model
 
 
 def lens_lines(reading: Reading) -> list[Line]:
-    """Return the lines from the pixel's point (u, v) to its direction, or to why it has none."""
+    """Return the lines from the pixel's point (u, v) to its direction, or to the reason that it has
+    none.
+    """
     camera, lens = reading.camera, reading.camera.lens
     assert lens is not None
     place = reading.x / camera.distance, -reading.y / camera.distance
@@ -66,7 +68,7 @@ def lens_lines(reading: Reading) -> list[Line]:
     way = [float(part) for part in lens.direction(*place)]
     if not np.isfinite(way).all():
         none = r"\mathbf{d} = \mathrm{none}"
-        return [*lines, Line("outside", "outside of the lens", none, "")]
+        return [*lines, Line("outside", "outside the lens", none, "")]
     latex = f"(X, Y, Z) = {DIRECTIONS[lens.model]}"
     ideal = Line("ideal", "the direction, Z forwards", latex, f"= {results(way)}", tuple(way))
     slots = {name: vector_slot(name, getattr(camera, name)) for name in ("u", "v", "w")}
@@ -85,7 +87,7 @@ def lens_lines(reading: Reading) -> list[Line]:
 
 
 def _distortion(lens: Lens) -> list[Line]:
-    """Return the line of what Newton's method undoes: the model's formula, and its numbers."""
+    """Return the line of the distortion: the model's formula, and its numbers."""
     given = {name: value for name, value in lens.coefficients.items() if value}
     if not given or lens.model == "fov":
         return []

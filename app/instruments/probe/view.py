@@ -1,7 +1,7 @@
 """The pixel probe: the numbers of the marked pixel's viewing ray, live while the camera moves.
 
-The view computes the readings, and its lines in the outside view.
-probe/panel.py draws a reading, probe/model.py computes it.
+The view keeps the readings, and makes the lines in the outside view.
+probe/panel.py draws a reading; probe/model.py computes it.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ from .model import Probe
 from .reading import Reading
 
 PROBE = "Probe"
-NORMAL = 0.12  # the length of a normal's arrow, in parts of the scene's reach
+NORMAL = 0.12  # length of a normal's arrow, relative to the scene's reach
 HINT = (
-    "Point at a pixel in an image or on the image plane. A click keeps it; the arrow keys move it."
+    "Point at a pixel in an image or on the image plane. Click to mark it; the arrow keys move it."
 )
 
 
@@ -51,10 +51,10 @@ class ProbeView(Instrument):
         self._outside = view_of(views, OutsideView)
         self._making: Background[Probe] | None = None
         self._probe: Probe | None = None
-        self._wanted: Any = None  # the scene that is being prepared, or is
+        self._wanted: Any = None  # the scene that is prepared, or being prepared
         self._error = ""
         self._seen = False
-        self.reading: Reading | None = None  # the one that is shown
+        self.reading: Reading | None = None  # the visible one
         self._readings = Memo(Probe.at)
         self._items = Memo(_outside_items)
 
@@ -92,7 +92,7 @@ class ProbeView(Instrument):
             shown = reading.bytes, reading.display
         panel.color_row(shown, host.fonts)
         imgui.separator()
-        # Formulas keep their rows whether the scrollbar is there or not.
+        # Formulas have the same rows with and without the scrollbar.
         wide = imgui.get_content_region_avail().x - imgui.get_style().scrollbar_size
         imgui.set_next_window_content_size((max(1.0, wide), 0.0))
         imgui.begin_child("reading", (0, 0), imgui.ChildFlags_.nav_flattened)
@@ -124,7 +124,7 @@ class ProbeView(Instrument):
         self._making.ask(Probe, state.scene)
 
     def _pixel(self, host: Host, size: Size) -> Pixel | None:
-        """Return the marked pixel, else the one under the mouse."""
+        """Return the marked pixel, or else the one under the mouse."""
         pixel = host.state.marked
         if pixel is None and host.hovered is not None:
             pixel = host.hovered[1]
@@ -133,7 +133,7 @@ class ProbeView(Instrument):
     def _reading(
         self, state: AppState, pixel: Pixel | None, camera: Camera, size: Size
     ) -> Reading | None:
-        """Return the pixel's reading, recomputed if anything in it has changed; None outside the
+        """Return the pixel's reading, recomputed if its inputs have changed; None outside the
         image.
         """
         probe = self._probe

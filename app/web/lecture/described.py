@@ -19,7 +19,7 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.editing.moving import bounds_of
 from lucida.renderer.editing.outline import outline
 
-SIZE = (320, 180)  # of images, where a step leaves it to the window
+SIZE = (320, 180)  # of images whose size the window determines
 MOST_NAMED = 8  # objects
 LABORATORY = {
     "function": "An image; at one of its points the spectrum of the light, schematic, and the "
@@ -33,7 +33,7 @@ LABORATORY = {
     "raster": "An image as squares, one for each pixel, with the count of its numbers.",
     "kinds": "An image as a bitmap, in gray, in colour or in floating point.",
     "exposure": "An image stored as bytes and as floating point, and then exposed: clipped parts "
-    "of the bytes stay flat, the floats show what was brighter.",
+    "of the bytes stay flat, the floats show brighter details.",
     "storage": "Bars for 1024 x 1024 pixels: bitmap 128 KB, grayscale 1 MB, colour 3 MB, floating "
     "point 12 MB.",
     "array": "A canvas of 3 rows and 4 columns. The cell in row 2 and column 3 is orange; in "
@@ -91,7 +91,7 @@ def _seen(step: Step, state: AppState) -> str:
 
 
 def _overlays(state: AppState) -> list[str]:
-    """Return what is drawn over the images."""
+    """Return descriptions of the drawings over the images."""
     pair = state.options.pair
     drawn = {
         f"{len(pair.parallels)} parallel lines along {text_tuple(pair.along)} are drawn to where "

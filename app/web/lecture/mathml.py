@@ -28,7 +28,7 @@ ATTRIBUTES = frozenset(
 _VALUE = re.compile(r"[\w.%+ -]{0,40}")
 _WIDTH = re.compile(r"-?[\d.]+(?:em|ex)")
 _SPACE = '<mspace width="0.167em"></mspace>'  # around sin and cos
-_BOLD = 0x1D400  # of Unicode's bold letters, A to Z and then a to z
+_BOLD = 0x1D400  # first of Unicode's bold letters, A to Z and then a to z
 _SANS = 0x1D5A0
 VECTORS = frozenset((*"uvwpdrx", "origin", "direction", "point"))  # names that have colours
 
@@ -48,7 +48,7 @@ def displayed(latex: str) -> str:
 def _math(latex: str, display: bool) -> str:
     try:
         root = convert_to_element(latex)
-    except Exception:  # its own have no common base, and a formula may be anything
+    except Exception:  # the library's errors have no common base, and a formula may be anything
         return f"<code>{escape(latex)}</code>"
     style = ' displaystyle="true"' if display else ""
     if display and latex[:1] in "=+-" and (sign := root.find("mrow/mo")) is not None:
@@ -58,7 +58,7 @@ def _math(latex: str, display: bool) -> str:
 
 def _content(element: Element) -> str:
     children = _merged(list(element))
-    if element.tag != "mrow":  # places of a fraction, of an index
+    if element.tag != "mrow":  # slots of a fraction or an index
         return "".join(map(_written, children))
     spaced = []
     for number, child in enumerate(children):
@@ -70,7 +70,7 @@ def _content(element: Element) -> str:
 
 
 def _merged(children: list[Element]) -> list[Element]:
-    """Return the elements, letters of one word as one."""
+    """Return the elements, with the letters of a word merged into one."""
     kept: list[Element] = []
     for child in children:
         variant = child.get("mathvariant")

@@ -33,7 +33,7 @@ def written(text: str) -> str:
     return blocks_html(parse(text))
 
 
-# A formula, and what must not begin the next line.
+# A formula, and punctuation that must not begin the next line.
 BEFORE_STOP = re.compile(r"(<math\b(?:(?!</math>).)*</math>)([.,;:?!)]+)", re.DOTALL)
 
 

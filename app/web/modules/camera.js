@@ -135,7 +135,7 @@ export function checkedCamera(given, old) {
   if (!(right > left && top > bottom)) throw new Error("viewport: needs left < right, bottom < top");
   if (!["perspective", "parallel"].includes(camera.projection)) throw new Error("projection: give perspective or parallel");
   if (camera.lens) checkLens(camera.lens);
-  if (camera.lens && isParallel(camera)) throw new Error("lens: parallel rays pass through no lens");
+  if (camera.lens && isParallel(camera)) throw new Error("lens: parallel rays cannot pass through a lens");
   if (near <= 0 || far <= (near ?? 0)) throw new Error("near, far: need 0 < near < far");
   return camera;
 }

@@ -2,7 +2,7 @@
 
 K is in pixels measured from the image's corner; a pose is camera-from-world, with y down and z
 forward. The files of rigs and frames, which newer versions write, add nothing to the images and are
-ignored. Models are only read: a set of cameras is written as glTF.
+ignored. Models are only read; a set of cameras is written as glTF.
 Source: COLMAP's documentation, "Output Format".
 """
 
@@ -30,7 +30,7 @@ from .rotations import rotation_of
 FILES = ("cameras", "images", "points3D")
 MORE_FILES = ("rigs", "frames")
 LARGEST_FILE_BYTES = 1 << 30
-BELOW = ("", "sparse/0", "sparse", "0")  # where a data set's folder keeps its model
+BELOW = ("", "sparse/0", "sparse", "0")  # folders of the model in a data set
 FOLDERS_UP = 3  # from the model to the folder that holds images/
 _Content = TypeVar("_Content")
 _READERS = {
@@ -67,13 +67,13 @@ def read(given: Given, options: Options) -> CameraSet:
     with naming(folder / f"images{kind}"):
         poses = rotation_of(numbers[:, :4])
     eyes = -(poses.swapaxes(1, 2) @ numbers[:, 4:, None])[..., 0]
-    bases = poses * np.array([[1.0], [-1.0], [-1.0]])  # y down and z forward become up and back
+    bases = poses * np.array([[1.0], [-1.0], [-1.0]])  # to y up and z back
     posed = []
     for image, basis, eye in zip(images, bases.tolist(), eyes.tolist(), strict=True):
         with naming(folder / f"images{kind}"), under(image.where, ": "):
             if image.camera not in lenses:
                 problem = f"{image.camera} is not in cameras{kind}"
-                raise LucidaError("CAMERA_ID", problem, "add the camera, or mend the number")
+                raise LucidaError("CAMERA_ID", problem, "add the camera, or correct the number")
             u, v, w = basis
             viewport, lens = optics[image.camera]
             camera = Camera(eye, u, v, w, 1.0, viewport, lens=lens)
@@ -119,7 +119,7 @@ def _photographs(folder: Path) -> str | None:
 
 
 def _photograph(photographs: str | None, name: str) -> str:
-    """Return the path of a photograph; "" for a name that leads out of their folder."""
+    """Return the path of a photograph; "" for a name that leads out of the photographs' folder."""
     if photographs is None:
         return ""
     path = PureWindowsPath(name)  # accepts both slashes

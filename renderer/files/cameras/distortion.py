@@ -33,5 +33,5 @@ def check_held(camera: Camera, models: Collection[str], target: str) -> None:
     lens = camera.lens
     if lens is not None and lens.model not in models:
         problem = f"{lens.model} is a lens that {target} cannot hold"
-        remedy = "take it off: Camera > Lens > No lens, --lens none, or lucida camera --no-lens"
+        remedy = "remove it: Camera > Lens > No lens, --lens none, or lucida camera --no-lens"
         raise LucidaError("lens", problem, remedy)

@@ -1,6 +1,4 @@
-"""The entries of other programs' files, each by its name: checked numbers, sizes and poses, and the
-keys that are not used.
-"""
+"""Entries of other programs' files by name: checked numbers, sizes and poses, and unused keys."""
 
 from __future__ import annotations
 
@@ -28,7 +26,7 @@ _LAST = (0.0, 0.0, 0.0, 1.0)  # row of an affine map
 
 
 def number_of(name: str, value: object) -> float:
-    """Return a finite number. A text that looks like a number is not one. Raises LucidaError."""
+    """Return a finite number. Numbers written as text are rejected. Raises LucidaError."""
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise LucidaError(name, f"{value!r} is not a number", "give a finite number")
     return number(name, value)
@@ -38,7 +36,7 @@ def side_of(name: str, value: object) -> int:
     """Return a width or height: a whole number, perhaps written as a float. Raises LucidaError."""
     side = number_of(name, value)
     if side != int(side) or side < 1:
-        raise LucidaError(name, f"{side:g} is no count of pixels", "give a whole number above 0")
+        raise LucidaError(name, f"{side:g} is not a count of pixels", "give a whole number above 0")
     return int(side)
 
 
@@ -105,7 +103,7 @@ def numbers_in(value: Any) -> Floats:
 
 
 def notes_on(names: Iterable[str]) -> tuple[str, ...]:
-    """Return a note that names the keys that are not used; none if there are none."""
+    """Return a note that names the unused keys; () if there are none."""
     unused = list(dict.fromkeys(names))
     if not unused:
         return ()

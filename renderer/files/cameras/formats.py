@@ -1,14 +1,14 @@
 """The list of formats, and the functions that read and write a file of any of them.
 
-A format is a module here and a line in FORMATS. A module has
+A format is a module in this folder and a line in FORMATS. A module has
 
     recognises(given: Given) -> bool            True if it looks like this format; never raises
     read(given: Given, options: Options) -> CameraSet
     write(cameras: Sequence[PosedCamera], options: Options) -> bytes
 
 which returns the content of the file; a format without endings is only read.
-LENSES are the models of lenses that it can hold; without it, none.
-Each raises LucidaError; a camera that the format cannot hold is never written.
+LENSES are the lens models that it can hold, none by default.
+read and write raise LucidaError; a camera that the format cannot hold is never written.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ from .posed import CameraSet, PosedCamera, one_of
 class Format:
     """A camera format.
 
-    name: on the command line. what: in words. needs: the parts by which a file is recognised.
-    endings: of the file that is written; none for a format that is only read.
+    name: on the command line. what: a description. needs: the parts by which a file is recognised.
+    endings: of written files; none for a format that is only read.
     """
 
     name: str
@@ -56,7 +56,7 @@ _FRAMES = "frames with a transform_matrix"
 _MATRICES = "a view matrix and a projection matrix of 16 numbers"
 _K = "camera_matrix, K, P, or fx and fy"
 
-# In the order in which recognised() tries them.
+# recognised() tries them in this order.
 FORMATS = (
     Format("view", "Lucida's view file", "a table [camera]", (".toml",)),
     Format("colmap", "COLMAP's model", "the files cameras and images", ()),
@@ -98,7 +98,7 @@ def without_choice(source: str) -> tuple[str, str]:
     """Split `transforms.json#12` or `sparse/0#IMG_7.jpg` into the file, and the camera's name or
     number after the `#` ("" for none).
 
-    If the whole of `source` is an existing file's name, it is that file, including any `#`.
+    If `source` as a whole names an existing file, it is that file, including any `#`.
     """
     signs = [place for place in range(len(source) - 1, 0, -1) if source[place] == "#"]
     for end in (len(source), *signs):
@@ -148,7 +148,7 @@ def recognised(found: Given) -> Format:
 def written(cameras: Sequence[PosedCamera], format: str, options: Options | None = None) -> bytes:
     """Return cameras as a file of a format.
 
-    Raises LucidaError if the format cannot hold them: a lens is never dropped silently.
+    Raises LucidaError if the format cannot hold them; a lens is never dropped silently.
     """
     entry, options = format_named(format), options or Options()
     entry.check_written()

@@ -1,8 +1,7 @@
-"""NeRF's cameras: transforms.json as the synthetic scenes, instant-ngp and nerfstudio write it. It
-is only read.
+"""NeRF's cameras: transforms.json as in the synthetic scenes, instant-ngp and nerfstudio.
 
-transform_matrix is camera-to-world, with OpenGL's axes: x right, y up, looking along -z. A
-camera_model is the whole file's.
+The format is only read. transform_matrix is camera-to-world, with OpenGL's axes: x right, y up,
+looking along -z. A camera_model applies to the whole file.
 Sources: nerfstudio's documentation, "Data conventions", and its
 Cameras._generate_rays_from_coords(); instant-ngp, "NeRF dataset tips" and common_device.cuh.
 """
@@ -48,7 +47,7 @@ _USED = {
     *_OPENCV,
 }
 _ENDING = re.compile(r"[^.]\.[A-Za-z]\w*\Z")
-_ANY_SIZE = (1000, 1000)  # of an image of which only the angle is known
+_ANY_SIZE = (1000, 1000)  # of an image with only a known angle
 
 
 def recognises(given: Given) -> bool:
@@ -63,7 +62,7 @@ def read(given: Given, options: Options) -> CameraSet:
     table = given.json if isinstance(given.json, dict) else {}
     frames = table.get("frames")
     if not (isinstance(frames, list) and frames and all(isinstance(f, dict) for f in frames)):
-        problem = "are missing, or no list of JSON objects"
+        problem = "are missing, or not a list of JSON objects"
         raise LucidaError("frames", problem, "give frames, each with a transform_matrix")
     folder = given.path and given.path.parent
     origin = options.pixel_origin or "corner"
@@ -96,7 +95,7 @@ def _disagree(table: Table) -> bool:
 def _image(name: object, folder: Path | None) -> str:
     """Return the photograph's path; the synthetic scenes omit its ending. Raises LucidaError."""
     if not isinstance(name, str):
-        raise LucidaError("file_path", f"{name!r} is no text", "give the image's path")
+        raise LucidaError("file_path", f"{name!r} is not text", "give the image's path")
     if not name:
         return ""
     path = (folder or Path()) / PurePosixPath(name.replace("\\", "/"))
@@ -136,7 +135,7 @@ def _camera(table: Table, folder: Path | None, options: Options) -> PosedCamera:
 
 
 def _intrinsics(table: Table, size: Size, offset: float) -> Floats:
-    """Return K, from the image's corner. offset: of whole numbers in the file from there."""
+    """Return K, measured from the image's corner. offset: of the file's whole numbers from it."""
     width, height = size
 
     def entry(name: str, default: float) -> float:

@@ -1,7 +1,7 @@
-"""Calibration files of OpenCV's family: OpenCV, ROS, ORB-SLAM, stella_vslam, VINS, Kalibr, and K, R
-and t as they are printed.
+"""Calibration files of OpenCV's family: OpenCV, ROS, ORB-SLAM, stella_vslam, VINS, Kalibr, and
+printed K, R and t.
 
-notations.py parses the notations, opencv_keys.py knows the names.
+notations.py parses the notations; opencv_keys.py has the names.
 Source: OpenCV's documentation, "Camera calibration and 3D reconstruction".
 """
 
@@ -71,7 +71,7 @@ def read_table(table: Table, options: Options, origin: PixelOrigin) -> CameraSet
     for name, keys in found.items():
         rectified: tuple[str, ...] = ()
         if "P" in keys and not {"K", "fx"}.isdisjoint(keys):
-            # In ROS, P is of the rectified image, into which R rotates.
+            # In ROS, P belongs to the rectified image, into which R rotates.
             rectified = ("P",) if "t" in keys else ("P", "R")
         others = [keys.pop(role)[0] for role in rectified if role in keys]
         lens = lens_in(keys)
@@ -168,21 +168,21 @@ def _size(keys: Keys, K: Floats, options: Options, origin: str) -> tuple[Size, s
     if not ((middle > 0.5) & (middle < 1e9)).all():
         raise LucidaError("image_width", "is missing", "give the image's size, or --size WxH")
     size = entries.size_of("image_width", *(float(np.round(side)) for side in middle))
-    told = f"no image size is given: {size[0]} x {size[1]}, whose middle is the principal point"
+    told = f"no image size is given: {size[0]} x {size[1]}, centred on the principal point"
     return size, told
 
 
 def _pose(keys: Keys, previous: Floats) -> tuple[_Pose, str, list[str]]:
     """Return the pose of a camera, its origin in words, and the names of poses that are not used.
 
-    previous: the pose of the camera before it.
+    previous: the previous camera's pose.
     """
     if found := keys.get("from previous"):
-        told = f"{found[0]} places it at the camera before it"
+        told = f"{found[0]} places it relative to the previous camera"
         return (found[0], affine(*found) @ previous), told, []
     poses = list(_poses(keys))
     if not poses:
-        return ("", np.eye(4)), "no pose: the camera stands at the origin", []
+        return ("", np.eye(4)), "no pose: the camera is at the origin", []
     first, pose, told = poses[0]
     return (first, pose), told, [name for name, _, _ in poses[1:]]
 
@@ -196,7 +196,7 @@ def _poses(keys: Keys) -> Iterator[tuple[str, Floats, str]]:
         yield found[0], pose, f"{found[0]} takes the camera's points to the world"
     turned, moved = keys.get("R") or keys.get("rvec"), keys.get("t")
     if found := keys.get("P"):
-        yield found[0], _projected(*found)[1], f"K, R and t out of {found[0]}"
+        yield found[0], _projected(*found)[1], f"K, R and t from {found[0]}"
     if turned or moved:
         yield _parts(turned, moved)
 

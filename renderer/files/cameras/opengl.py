@@ -26,16 +26,16 @@ Order = Literal["column by column", "row by row"]
 MOST_BYTES = 1 << 20
 
 AROUND = (0.1, 100.0)  # near and far for a camera without them, if there is no scene
-FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far not the camera's own
+FITTED, CHOSEN = "fitted to the scene", "chosen freely"  # near and far of another origin
 
 _OURS = ("camera_from_world", "clip_from_camera")
 _VIEW = ("camera_from_world", "view_matrix", "viewMatrix", "modelview", "modelViewMatrix", "view")
 _CLIP = ("clip_from_camera", "projection_matrix", "projectionMatrix", "projection")
-# Depths of the near and the far plane: OpenGL's; the same reversed; and both of other programs.
+# Depths of the near and the far plane: OpenGL's and other programs', each also reversed.
 _RANGES = ((-1, 1), (1, -1), (1, 0), (0, 1))
 _ENDLESS = 1e-7  # relative to near: float32's rounding of an infinite far
 _ORDERS: tuple[Order, Order] = ("column by column", "row by row")
-_EXACT = 1e-6  # relative to a matrix's largest number: what counts as 0
+_EXACT = 1e-6  # relative to a matrix's largest number; smaller numbers count as 0
 
 
 def recognises(given: Given) -> bool:
@@ -97,7 +97,7 @@ def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
 
 
 def _assigned(text: str) -> dict[str, str]:
-    """Return what follows each name, without the type before it in C."""
+    """Return the text after each name, without the type before it in C."""
     return {name.rpartition(" ")[2]: value for name, value in assigned(text).items()}
 
 
@@ -115,8 +115,9 @@ def _matrix(found: dict[str, str], names: tuple[str, ...]) -> tuple[str, Floats]
 def _camera(
     names: tuple[str, str], view: Floats, clip: Floats, fitted: bool
 ) -> tuple[Camera, tuple[str, ...]]:
-    """Return the camera, and in words how the matrices were read. fitted: near and far are not the
-    camera's own.
+    """Return the camera, and a description of how the matrices were read.
+
+    fitted: near and far are not the camera's own.
     """
     view_order, clip_order = _orders(names, view, clip)
     taken = [f"{names[0]} {view_order}", f"{names[1]} {clip_order}"]
@@ -126,7 +127,7 @@ def _camera(
     a, b = clip[0, 0], clip[1, 1]
     if not (a and b):
         problem = f"its first two rows are {listed(clip[0])} and {listed(clip[1])}"
-        raise LucidaError(names[1], problem, "give a projection that is not turned")
+        raise LucidaError(names[1], problem, "give a projection without a rotation")
     # Off-diagonal entries skew the basis; a negative scale mirrors it.
     skew = np.eye(3)
     skew[0], skew[1] = clip[0, :3] / abs(a), clip[1, :3] / abs(b)
@@ -142,7 +143,7 @@ def _camera(
     half = 1 / np.abs((a, b))
     low, high = -half - middle, half - middle
     near = far = None
-    if not clip[2, :2].any() and not fitted:  # an oblique near plane is left out
+    if not clip[2, :2].any() and not fitted:  # leave out an oblique near plane
         near, far, told = _clip_planes(names[1], clip, parallel)
         taken += told
     u, v, w, eye = (_vector(column) for column in world_from_camera.T[:, :3])
@@ -167,7 +168,7 @@ def _orders(names: tuple[str, str], view: Floats, clip: Floats) -> tuple[Order, 
         problem = "is not affine: neither its last row nor its last column is 0, 0, 0, 1"
         raise LucidaError(names[0], problem, "give a rigid or affine matrix")
     if not clips:
-        problem = "is no projection: its last row is neither 0, 0, -1, 0 nor 0, 0, 0, 1"
+        problem = "is not a projection: its last row is neither 0, 0, -1, 0 nor 0, 0, 0, 1"
         raise LucidaError(names[1], problem, "give OpenGL's, which looks along -z")
     return (views if len(views) == 1 else clips)[0], (clips if len(clips) == 1 else views)[0]
 
@@ -180,7 +181,7 @@ def _last(table: Floats, order: Order) -> Floats:
 def _clip_planes(
     name: str, clip: Floats, parallel: bool
 ) -> tuple[float | None, float | None, list[str]]:
-    """Return near and far, None for one that does not clip, and in words the range of depths.
+    """Return near and far, None for one that does not clip, and a description of the depth range.
 
     The range is the first in _RANGES with near before far. Raises LucidaError if there is none.
     """

@@ -22,10 +22,10 @@ NAMES_TOLD = 3  # cameras that an error's remedy lists
 class PosedCamera:
     """One camera of a file.
 
-    size: (width, height) of its image; None if the format has none. The viewport then determines
-    the aspect ratio, and fit means that it is widened to fit each image. name: the file's name for
-    it, or the photograph's name. image: the photograph's path, "" if the file names none. It may
-    not exist.
+    size: (width, height) of its image; None if the format has none. In that case, the viewport
+    determines the aspect ratio, and fit widens it to each image. name: the file's name for
+    it, or the photograph's name. image: the path of the photograph, which may not exist; "" if the
+    file names none.
     """
 
     camera: Camera
@@ -39,10 +39,10 @@ class PosedCamera:
 class CameraSet:
     """The cameras of a file, in its order.
 
-    format: a name of FORMATS. taken: the conventions that were assumed, one phrase each ("integers
-    at the pixels' centres"). points, point_colors: of a reconstruction, float64 (n, 3), and their
-    colours in sRGB, uint8 (n, 3). notes: the phrases among taken that commands report: on unused
-    keys, and on the origin of the images' size if the file does not state it.
+    format: a name of FORMATS. taken: the assumed conventions, one phrase each ("integers at the
+    pixels' centres"). points, point_colors: of a reconstruction, float64 (n, 3), and their colours
+    in sRGB, uint8 (n, 3). notes: the phrases among taken that commands report, about unused keys,
+    and the origin of the images' size if the file does not state it.
     """
 
     format: str
@@ -63,7 +63,7 @@ def one_of(cameras: Sequence[PosedCamera], which: str = "") -> PosedCamera:
     Without either, return the only camera. Raises LucidaError listing the choices.
     """
     named = [camera for camera in cameras if camera.name == which] if which else list(cameras)
-    if not named:  # a photograph by its bare file name
+    if not named:  # find a photograph by its file name alone
         named = [camera for camera in cameras if camera.name.rpartition("/")[2] == which]
     if not named and which.isascii() and which.isdigit() and len(which) < 10:
         named = list(cameras[int(which) :][:1])
@@ -89,8 +89,8 @@ def sized(posed: PosedCamera, options: Options) -> tuple[Camera, Size | None]:
 
 
 def in_image(posed: PosedCamera, options: Options, target: str) -> tuple[Camera, Size]:
-    """Like sized(), for a format that needs a size. Raises LucidaError if there is none."""
+    """Return sized() for a format that needs a size. Raises LucidaError if there is none."""
     camera, size = sized(posed, options)
     if size is None:
-        raise LucidaError("size", f"is not known, and {target} needs one", "give --size WxH")
+        raise LucidaError("size", f"is unknown, but {target} needs one", "give --size WxH")
     return camera, check_size(size)

@@ -1,4 +1,4 @@
-"""Triangles as glTF needs them.
+"""Convert triangles to glTF's form.
 
 In glTF, a mesh has normals at all its vertices or at none, and its triangles wind about their
 normals. In Lucida some triangles may be flat, and any winding is allowed.
@@ -37,7 +37,7 @@ class Triangles(NamedTuple):
 def exported_triangles(shape: Shape, turns: bool) -> Triangles:
     """Return a shape's triangles, which wind about their normals.
 
-    turns: False if the winding decides which side is visible, and must stay.
+    turns: False to keep the winding, which then determines the visible side.
     """
     if isinstance(shape, Sphere):
         ball = trimesh.creation.icosphere(SPHERE_SUBDIVISIONS)
@@ -60,7 +60,7 @@ def _wound(shape: Mesh, vertices: F32, faces: Any, normals: Any, turns: bool) ->
     found = Triangles(vertices, faces, normals.astype(np.float32), shape.colors, shape.uv)
     if not is_flat.any():
         return found
-    corners = faces.reshape(-1)  # three vertices of its own for each triangle
+    corners = faces.reshape(-1)  # each triangle gets its own three vertices
     flat = np.repeat(is_flat, 3)[:, None]
     own_normals = np.where(flat, np.repeat(outward, 3, axis=0), normals[corners])
     colors, uv = (None if a is None else a[corners] for a in (shape.colors, shape.uv))

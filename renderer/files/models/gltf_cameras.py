@@ -1,6 +1,6 @@
 """The cameras of a glTF tree, at their nodes.
 
-A node's scale moves its cameras but does not change them, as the format says.
+As the format requires, a node's scale moves its cameras but does not change them.
 Source: Khronos, glTF 2.0 Specification, "Cameras".
 """
 
@@ -25,7 +25,7 @@ from lucida.renderer.system.errors import LucidaError, under
 from .gltf import PlacedNode
 from .gltf_file import AGAIN, Gltf, Table
 
-# In a camera's extras: the names of clip planes that are written because the format needs a number.
+# The key in a camera's extras for clip planes that are written only because the format needs them.
 UNCLIPPED = "lucida_unclipped"
 
 
@@ -63,9 +63,7 @@ class FoundCamera(NamedTuple):
 
 
 def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ...]:
-    """Return the views of all sound cameras, each fitted to the image. A model is not refused for
-    its cameras.
-    """
+    """Return the views of all valid cameras, each fitted to the image. Others are ignored."""
     views: list[NamedView] = []
     for placed in nodes:
         if placed.node.camera is not None and len(views) < VIEWS:
@@ -77,8 +75,8 @@ def camera_views(tree: Gltf, nodes: Iterable[PlacedNode]) -> tuple[NamedView, ..
 
 
 def gltf_camera(tree: Gltf, placed: PlacedNode, size: Size | None = None) -> FoundCamera:
-    """Return the camera of a node that has one. size: of the image, if known; a file without
-    aspectRatio means its. Raises LucidaError naming the field.
+    """Return the camera of a node that has one. size: of the image, if known, which replaces a
+    missing aspectRatio. Raises LucidaError naming the field.
     """
     assert placed.node.camera is not None
     given = tree.entry("cameras", placed.node.camera)
@@ -114,11 +112,11 @@ def _lens(fields: GltfCamera, size: Size | None) -> dict[str, Any]:
         lens = {
             "viewport": (-box.xmag, box.xmag, -box.ymag, box.ymag),
             "projection": "parallel",
-            "near": box.znear or None,  # 0 is the eye's own plane, where rays begin
+            "near": box.znear or None,  # 0 is the eye's plane, where rays begin
             "far": box.zfar,
         }
     else:
-        problem = f"{fields.type[:20]!r} is neither perspective nor orthographic with its numbers"
+        problem = f"{fields.type[:20]!r} is not perspective or orthographic, or lacks its numbers"
         raise LucidaError("type", problem, AGAIN)
     unclipped = fields.extras.get(UNCLIPPED) if isinstance(fields.extras, dict) else None
     for name in unclipped if isinstance(unclipped, list) else ():

@@ -1,6 +1,6 @@
 """glTF 2.0 files: the tree's structures, the .glb container, the buffers, the accessors.
 
-Files are read only from the model's own folder, nothing over a network.
+Files are read only from the model's own folder, and never over a network.
 Source: Khronos, glTF 2.0 Specification.
 """
 
@@ -33,7 +33,7 @@ TRANSFORM, LIGHTS = "KHR_texture_transform", "KHR_lights_punctual"
 READ = (TRANSFORM, LIGHTS, "KHR_mesh_quantization")
 MATERIALS = re.compile(
     "KHR_materials_(?!variants)"
-)  # these change no geometry: gltf_materials.py names what is not shown
+)  # these change no geometry; gltf_materials.py notes those not shown
 AGAIN = "export it again"
 COMPONENT_TYPES: dict[int, np.dtype[Any]] = {
     5120: np.dtype("i1"),
@@ -47,7 +47,7 @@ COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 class Table(msgspec.Struct, rename="camel"):
-    """A table of the tree. Fields that it does not name are ignored."""
+    """A table of the tree. Undeclared fields are ignored."""
 
     def entry(self, kind: str, number: int) -> Any:
         """Return an entry of one of the lists. Raises LucidaError."""
@@ -59,7 +59,7 @@ class Table(msgspec.Struct, rename="camel"):
 
 
 class Value(msgspec.Struct, rename="camel", frozen=True):
-    """A table that is a key, or a default."""
+    """A table for use as a key or a default."""
 
 
 class Asset(Table):
@@ -84,7 +84,7 @@ class Accessor(Value, frozen=True):
     buffer_view: Index | None = None
     byte_offset: Count = 0
     normalized: bool = False
-    sparse: dict[str, Any] | None = None  # refused
+    sparse: dict[str, Any] | None = None  # rejected
 
 
 class Primitive(Table):
@@ -147,7 +147,7 @@ class Pbr(Value, frozen=True):
 
 
 class GltfMaterial(Table):
-    """Fields of type Any are not read: their presence is reported."""
+    """A material. Fields of type Any are not read, but their presence is reported."""
 
     pbr_metallic_roughness: Pbr = Pbr()
     double_sided: bool = False
@@ -213,7 +213,7 @@ class Gltf(Table):
     accessors: list[Accessor] = []
     buffer_views: list[BufferView] = []
     buffers: list[Buffer] = []
-    cameras: list[Any] = []  # checked by gltf_cameras.py: no model is refused for its cameras
+    cameras: list[Any] = []  # checked by gltf_cameras.py, which never rejects a model
     textures: list[GltfTexture] = []
     images: list[GltfImage] = []
     samplers: list[GltfSampler] = []
@@ -227,7 +227,7 @@ def parse_gltf(data: bytes, source: str) -> tuple[Gltf, bytes | None]:
     if data[:4] == b"glTF":
         text, binary = _chunks(data)
         check_bytes(len(text), GLTF_JSON_BYTES, source)
-    else:  # its buffers may be inside, as base64
+    else:  # the buffers may be inside, as base64
         check_bytes(len(data), TEXT_MODEL_BYTES, source)
     try:
         tree = msgspec.json.decode(text, type=Gltf)
@@ -254,8 +254,8 @@ def _chunks(data: bytes) -> tuple[memoryview, bytes]:
         chunks.setdefault(data[at + 4 : at + 8], memoryview(data)[at + 8 : at + 8 + size])
         at += 8 + size
     if version != 2 or b"JSON" not in chunks:
-        problem = f"is no whole glTF 2.0: version {version}, {length} bytes of which {len(data)}"
-        raise damaged(f"{problem} are there")
+        problem = f"is not a complete glTF 2.0: version {version}, {length} bytes"
+        raise damaged(f"{problem} of which {len(data)} exist")
     return chunks[b"JSON"], bytes(chunks.get(b"BIN\0", b""))
 
 
@@ -288,7 +288,7 @@ class OpenGltf:
         data = self._read[view.buffer] or b""
         end = view.byte_offset + view.byte_length
         if end > len(data):
-            problem = f"ends behind its buffer of {len(data)} bytes"
+            problem = f"ends after its buffer of {len(data)} bytes"
             raise LucidaError(f"bufferViews[{number}]", problem, AGAIN)
         return memoryview(data)[view.byte_offset : end], view.byte_stride
 
@@ -331,7 +331,7 @@ class OpenGltf:
             raise LucidaError(field, problem, "it is damaged; export it again") from None
 
     def fractions(self, number: int, *types: str) -> NDArray[Any]:
-        """Return the numbers of an accessor as it means them: normalized ones as fractions."""
+        """Return the numbers of an accessor, with normalized ones as fractions."""
         found = self.numbers(number, *types)
         if found.dtype.kind not in "ui" or not self.tree.accessors[number].normalized:
             return found

@@ -22,14 +22,15 @@ from .texts import is_number, tidy
 
 _COMMENT = re.compile(r"(?:^|\s)#.*")
 _DEFAULTS = {"kd": [0.7], "ks": [0.0], "ns": [50.0]}
-# What changes nothing, or little, in a picture; and values that change nothing.
+# Keywords that change little in a picture, and values that change nothing.
 _HARMLESS = ("ka", "ni", "illum", "tf", "sharpness", "map_ka")
 _NO_CHANGE = {"d": 1.0, "tr": 0.0, "ke": 0.0}
 
 
 @dataclass
 class MtlMaterial:
-    """fields: Kd, Ks and Ns as they stand. image: the name after map_Kd. folder: the file's.
+    """A material. fields: Kd, Ks and Ns, unchanged. image: the name after map_Kd. folder: the
+    file's.
     ignored: keywords that are not shown.
     """
 
@@ -39,11 +40,11 @@ class MtlMaterial:
     ignored: list[str] = field(default_factory=list)
 
     def material(self, images: ModelImages) -> Material | None:
-        """Return the material, clamped to what one may have, with its texture, whose image is read
-        now; None if none of its fields is known.
+        """Return the material, clamped to its bounds, after reading its texture's image; None if
+        none of its fields is known.
 
-        Kd multiplies the image. If there is none, or it is black, as many programs write it with an
-        image, the image is shown unchanged.
+        Kd multiplies the image. The image is unchanged if Kd is missing, or black, which many
+        programs write next to an image.
         """
         if self.ignored:
             images.note(f"not shown: {', '.join(self.ignored)}", "materials")
@@ -58,7 +59,7 @@ class MtlMaterial:
 
     def _plain(self) -> Material:
         given = {**_DEFAULTS, **self.fields}
-        colors = (np.resize(given[name], 3) for name in ("kd", "ks"))  # one number is a gray
+        colors = (np.resize(given[name], 3) for name in ("kd", "ks"))  # one number means gray
         diffuse, specular = (vector("color", np.nan_to_num(rgb).clip(0, 1)) for rgb in colors)
         return Material(diffuse, specular, float(np.nan_to_num(given["ns"][0]).clip(1, 1000)))
 
@@ -67,7 +68,7 @@ def read_mtl(path: Path) -> dict[str, MtlMaterial]:
     """Return a file's materials by name. Raises LucidaError if it cannot be read."""
     text = tidy(read_file(path, MATERIAL_BYTES)).decode("utf-8", "replace")
     found: dict[str, MtlMaterial] = {}
-    material = MtlMaterial(path.parent)  # of what is above the first name
+    material = MtlMaterial(path.parent)  # for lines above the first name
     for line in text.splitlines():
         keyword, *words = _COMMENT.sub("", line).split() or ["illum"]
         keyword = keyword.lower()

@@ -1,6 +1,6 @@
 """PLY, STL and OFF files.
 
-Each count that a file declares is compared with the data that is there before memory is set aside.
+Each count that a file declares is compared with the available data before memory is allocated.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ Columns = dict[str, NDArray[Any]]
 
 
 def read_ply(path: Path, images: ModelImages) -> list[Part]:
-    """Return the mesh of a .ply file, text or binary. images: notes what is not read."""
+    """Return the mesh of a .ply file, text or binary. images: notes unread data."""
     data = read_file(path, BINARY_MODEL_BYTES)
     end = _PLY_END.search(data[: 1 << 16])
     if not data.startswith(b"ply") or not end:
@@ -55,7 +55,7 @@ def read_ply(path: Path, images: ModelImages) -> list[Part]:
         for element in elements:
             found[element.name], at = _ply_columns(body, at, element, order, is_text)
     except (ValueError, TypeError, LookupError, OverflowError):
-        raise damaged("does not hold what its PLY header declares") from None
+        raise damaged("does not hold the data that its PLY header declares") from None
     if "tristrips" in found:
         raise LucidaError("tristrips", "are not read", "export triangles")
     vertex, face = found.get("vertex", {}), found.get("face", {})
@@ -95,20 +95,20 @@ def _ply_header(header: str) -> tuple[list[_PlyElement], str]:
 def _ply_columns(
     body: bytes, at: int, element: _PlyElement, order: str, is_text: bool
 ) -> tuple[Columns, int]:
-    """Return the columns of an element, and where it ends. A list has two: its numbers under its
+    """Return the columns of an element, and its end. A list has two: its numbers under its
     name, and their count in each row under "name count".
     """
     if element.rows < 0:
         raise ValueError
     if not element.rows or not element.properties:
         return {}, at
-    # In a text, all numbers have been read as float64.
+    # A text's numbers have all been read as float64.
     kinds = [
         (name, counted and (order + counted, "<f8")[is_text], (order + kind, "<f8")[is_text])
         for name, counted, kind in element.properties
     ]
     fields: list[tuple[Any, ...]] = []
-    for name, counted, kind in kinds:  # as if all lists were as long as those of the first row
+    for name, counted, kind in kinds:  # assume that all lists are as long as those of the first row
         if counted:
             length = np.frombuffer(body, counted, 1, at + np.dtype(fields).itemsize)
             fields += [(f"{name} count", counted), (name, kind, (int(length[0]),))]
@@ -179,7 +179,7 @@ def _faces(points: NDArray[Any], corners: NDArray[Any], counts: NDArray[Any]) ->
 
 
 def read_off(path: Path, images: ModelImages) -> list[Part]:
-    """Return the mesh of an .off file, a text. images: notes what is not read."""
+    """Return the mesh of an .off file, a text. images: notes unread data."""
     text = re.sub(rb"#[^\n]*", b"", read_text_bytes(path)).lstrip()
     kind = re.match(rb"(?i)(ST)?(C)?(N)?OFF(?!\s*BINARY)", text)
     if kind is None:
@@ -201,16 +201,14 @@ def read_off(path: Path, images: ModelImages) -> list[Part]:
         places = np.repeat(first + 1 - (np.cumsum(counts) - counts), counts)
         corners = numbers[places + np.arange(len(places))]
     except (ValueError, IndexError, OverflowError):
-        raise damaged("does not hold what its OFF header declares") from None
+        raise damaged("does not hold the data that its OFF header declares") from None
     if kind[0].upper() != b"OFF" or (lengths[which] > counts + 1).any():
         images.note("not read: colours, normals and texture coordinates", "OFF")
     return [Part(path.stem, points, _faces(points, corners, counts))]
 
 
 def read_stl(path: Path, images: ModelImages) -> list[Part]:
-    """Return the mesh of an .stl file, text or binary: of all its solids together. images: notes
-    what is not read.
-    """
+    """Return the mesh of all solids of an .stl file, text or binary. images: notes unread data."""
     data = read_file(path, BINARY_MODEL_BYTES)
     triangles = int.from_bytes(data[80:84], "little")
     behind = len(data) - 84 - 50 * triangles
@@ -218,7 +216,7 @@ def read_stl(path: Path, images: ModelImages) -> list[Part]:
         check_count(triangles, TRIANGLES, "triangles")
         points = np.frombuffer(data, _FACET, triangles, 84)["vertices"].reshape(-1, 3)
         if behind:
-            images.note(f"not read: {behind} bytes behind the triangles", "STL")
+            images.note(f"not read: {behind} bytes after the triangles", "STL")
     elif data.lstrip()[:5].lower() == b"solid" and b"endsolid" in data.lower():
         check_bytes(len(data), TEXT_MODEL_BYTES, "")
         text = b" %s\n" % b"\n ".join(_VERTEX.findall(tidy(data)))
@@ -227,5 +225,5 @@ def read_stl(path: Path, images: ModelImages) -> list[Part]:
         except ValueError:
             raise damaged("has a vertex that is not three numbers") from None
     else:
-        raise damaged(f"is no STL of {triangles} triangles: it has {len(data):,} bytes")
+        raise damaged(f"is not an STL of {triangles} triangles: it has {len(data):,} bytes")
     return [Part(path.stem, points, np.arange(len(points) // 3 * 3).reshape(-1, 3))]

@@ -1,6 +1,6 @@
 """The pixels that a kernel writes, and the frame made from them.
 
-An image has buffers, and is divided into blocks. This module needs no numba.
+An image has buffers, and is divided into blocks. This module does not need numba.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from .buffers import Buffers
 
 BLOCK = 32  # pixels: side of the square that a thread traces at a time
 
-# Shape of a pixel, dtype, and the value of a miss (color: the background instead).
+# Shape of a pixel, dtype, and the value of a miss (for color, the background).
 _LAYOUT: dict[str, tuple[tuple[int, ...], type, float]] = {
     "color": ((3,), np.float32, 0),
     "depth": ((), np.float32, np.inf),

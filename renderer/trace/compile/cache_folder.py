@@ -1,10 +1,10 @@
 """The cache folder for kernels' machine code.
 
-This module needs no numba: the need to compile is known before numba is imported.
+This module does not need numba, so the need to compile is known before numba is imported.
 
-numba's own cache checks only one file: after an edit of intersect.py it would still use the
-kernel.py that was compiled before. Here the cache folder is named by a hash of all the kernels'
-sources and of the compilers' versions, so stale code is never found.
+numba's own cache checks only one file, so it would still use the old kernel.py after an edit of
+intersect.py. This cache folder is named by a hash of all the kernels' sources and of the compilers'
+versions, so stale code is never found.
 
 The folder is in NUMBA_CACHE_DIR if that is set, otherwise in the user's cache folder, otherwise
 inside this package. numba unpickles and runs the files in it. A folder that others can write to is
@@ -34,7 +34,7 @@ from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.private_folder import private_folder
 
 KEPT = 4  # folders of other sources or versions to keep
-KEPT_FOR_S = 3600.0  # younger ones are kept, too: another process may be writing them
+KEPT_FOR_S = 3600.0  # younger ones are also kept, since another process may be writing them
 TRACE_FOLDER = Path(__file__).parents[1]  # the tracer's folder
 
 
@@ -46,9 +46,7 @@ def cache_folder() -> Path | None:
 
 
 def cache_problem() -> str:
-    """Return for the user why a folder was skipped; "" if none was skipped that could be
-    written.
-    """
+    """Return a message about a skipped folder; "" if no writable folder was skipped."""
     return find_cache_folder()[1]
 
 
@@ -76,7 +74,7 @@ def source_hash() -> str:
     """Return a hash of the compiled code.
 
     It covers the tracer's sources and those that they depend on, the scene's layout and the shared
-    numbers; their place, by which numba keeps machine code; the versions of Python and the
+    numbers; their path, by which numba stores machine code; the versions of Python and the
     compilers; and the processor, since several may share a folder.
     """
     sources = sorted(TRACE_FOLDER.rglob("*.py"))
@@ -122,7 +120,7 @@ def _bases() -> Iterator[Path]:
 def _writable(folder: Path) -> bool:
     try:
         folder.chmod(0o700)  # numba's folders inside have the umask's permissions
-        with tempfile.TemporaryFile(dir=folder):  # empty: a full disk can still be read
+        with tempfile.TemporaryFile(dir=folder):  # an empty file works even on a full disk
             pass
         os.utime(folder)  # marks the last use, for pruning
     except OSError:

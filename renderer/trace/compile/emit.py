@@ -1,9 +1,9 @@
 """Functions that Python runs while a kernel is compiled, to emit LLVM's instructions.
 
-numba takes about a millisecond for each statement. A function that is decorated by emitted() costs
-it nothing: wherever a kernel calls it, Python calls it with Values, whose operators emit
-instructions right there. Such a function has no runtime branches or loops: a condition must be
-known from the types, as `lens is None` is, or use choose(). It may call other emitted functions,
+numba takes about a millisecond for each statement, but none for a function decorated by emitted().
+At each call in a kernel, Python calls it with Values, whose operators emit instructions on the
+spot. Such a function has no runtime branches or loops. A condition must be known from the types,
+like `lens is None`, or use choose(). It may call other emitted functions,
 but none of numba's.
 """
 
@@ -34,17 +34,17 @@ _targets: list[_Target] = []  # innermost last; numba compiles one function at a
 
 
 def target() -> _Target:
-    """Return where the running function emits."""
+    """Return the target into which the running function emits."""
     return _targets[-1]
 
 
 class Value:
-    """A value of the kernel. kind: its numba type. llvm: what LLVM calls it.
+    """A value of the kernel. kind: its numba type. llvm: its LLVM value.
 
     A tuple has its elements and fields; a pointer is indexed; numbers and vectors have operators.
     """
 
-    __array_ufunc__ = None  # NumPy's numbers leave their operators to this class
+    __array_ufunc__ = None  # NumPy's numbers defer to this class's operators
     __hash__ = None  # type: ignore[assignment]
 
     def __init__(self, kind: Any, llvm: Any) -> None:
@@ -89,7 +89,7 @@ for _name in (
 
 
 def new(kind: Any, emit: Callable[[Any], Any]) -> Any:
-    """Return the Value of this numba type that emit(builder) emits; None for none."""
+    """Return the Value of this numba type that emit(builder) emits; None for type none."""
     builder = target().builder
     llvm = None if builder is None else emit(builder)
     return None if kind == types.none else Value(kind, llvm)
@@ -129,7 +129,7 @@ def _signature(typing: Any, function: Any, kinds: tuple[Any, ...]) -> Any:
 
 
 def call(function: Any, *arguments: Any) -> Any:
-    """Return what a function or operator that numba knows returns."""
+    """Call a function or operator that numba knows. Return its result."""
     typing, context, _ = target()
     values = [value_of(argument) for argument in arguments]
     signature = _signature(typing, function, tuple(value.kind for value in values))
@@ -186,8 +186,8 @@ def _joined(builder: Any, blocks: list, a: Any, b: Any) -> Any:
 
 
 def defined(function: Any, kind_of: Any, lower: Any) -> Any:
-    """Define for numba what a function's calls return, kind_of(typing context, arguments' types),
-    and the code that they lower to.
+    """Define for numba the type of a function's calls, kind_of(typing context, arguments' types),
+    and their code.
     """
     signature = inspect.signature(function)
 

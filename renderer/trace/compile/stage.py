@@ -1,10 +1,10 @@
-"""Stages of a kernel that are compiled separately and called by their address, with their constant
-arguments. Also parts that are compiled with their kernel, but called instead of inlined.
+"""Stages of a kernel that are compiled separately and called by address with constant arguments.
 
-A kernel and its parts are compiled as a whole, on one processor. If a kernel calls a large part
-once for many rays, the two can be compiled separately, at the same time. The part, with all
-arguments that are constant for the image, becomes StagedCode, two addresses. The kernel needs
-neither its code nor the types of those arguments. A call costs some nanoseconds.
+This module also calls parts that are compiled with their kernel, but not inlined. A kernel and its
+parts are compiled as a whole, on one processor. If a kernel calls a large part once for many rays,
+the two can be compiled separately, at the same time. The part, with all arguments that are constant
+for the image, becomes StagedCode, two addresses. The kernel needs neither its code nor the types of
+those arguments. A call costs some nanoseconds.
 """
 
 from __future__ import annotations
@@ -91,7 +91,7 @@ def _calling(context, module, function, signature, code_type, arguments):
 
 @intrinsic
 def call_stage(typing, code, room, row, column, floats, ints):
-    """Call a stage's code by its address; room: the pointer to its memory."""
+    """Call a stage's code by its address. room: the pointer to its memory."""
     signature = types.void(types.int64, CPointer(types.uint8), *_EACH)
 
     def codegen(context, builder, sig, args):
@@ -103,7 +103,7 @@ def call_stage(typing, code, room, row, column, floats, ints):
 
 @intrinsic
 def call_apart(typing, function, arguments):
-    """Call function(*arguments) without inlining it: for rarely needed code that would take
+    """Call function(*arguments) without inlining it, for rarely needed code that would take
     registers from the usual path.
 
     function: decorated by inlined(); it returns nothing and raises nothing.

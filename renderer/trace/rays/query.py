@@ -1,4 +1,4 @@
-"""Rays that a user hands in: the closest hit of each."""
+"""The closest hits of rays that a user passes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def closest_hits(
     Arithmetic is float32, from the ray's origin in each object's space. A ray that contains NaN or
     has no direction hits nothing.
     """
-    # Read-only, or a kernel would be compiled again for arrays that are.
+    # Make all arrays read-only, or the kernel would be compiled for both kinds.
     rays = [
         np.ascontiguousarray(vectors, np.float64).reshape(-1) for vectors in (origins, directions)
     ]

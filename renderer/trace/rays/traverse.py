@@ -1,13 +1,13 @@
 """Single rays on the wide trees: closest hit and any hit.
 
-For rays that are not coherent: shadows, reflections, and the user's own. The lanes are the 16
-children of a node, or the 16 triangles of a leaf. A shading kernel may call closest_hit and
+These functions trace incoherent rays: shadows, reflections, and the user's own. The lanes are the
+16 children of a node, or the 16 triangles of a leaf. A shading kernel may call closest_hit and
 any_hit.
 
-Rays and arithmetic are float32, relative to the ray's origin; spheres, float64.
+Rays and arithmetic are float32, relative to the ray's origin; spheres are float64.
 
-Sources: slabs, Kay and Kajiya 1986; Wald, Benthin and Boulos, "Getting Rid of Packets", 2008;
-triangles, Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013.
+Sources: Kay and Kajiya 1986 (slabs); Wald, Benthin and Boulos, "Getting Rid of Packets", 2008;
+Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013 (triangles).
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ def space_ray(origin, direction, attributes, space):
     ox, oy, oz = np.float32(origin[0]), np.float32(origin[1]), np.float32(origin[2])
     dx, dy, dz = np.float32(direction[0]), np.float32(direction[1]), np.float32(direction[2])
     ax, ay, az = abs(dx), abs(dy), abs(dz)
-    # Boxes: no division by 0, and no infinity times 0.
+    # For boxes, avoid division by 0, and infinity times 0.
     least = max(ax, ay, az) * _STEEP
     one = np.float32(1)
     ix, iy, iz = one / _steep(dx, least), one / _steep(dy, least), one / _steep(dz, least)
@@ -106,8 +106,8 @@ def space_ray(origin, direction, attributes, space):
         (2 if iz >= 0 else 5) * WIDTH,
     )
     far = 3 * WIDTH - near[0], 5 * WIDTH - near[1], 7 * WIDTH - near[2]
-    # Triangles: the axis of the largest component is z. Branchless: the branch would be
-    # unpredictable.
+    # For triangles, z is the axis of the largest component. Branchless, because the branch would
+    # be unpredictable.
     is_x, is_y = (ax >= ay) & (ax >= az), ay >= az
     z = np.int64(0) if is_x else (np.int64(1) if is_y else np.int64(2))
     x = np.int64(0) if z == 2 else z + 1
@@ -160,7 +160,7 @@ def children_on_ray(box, node, ray, t_min, t_max):
 
 @inlined
 def triangles_on_ray(corner, leaf, ray, t_min, t_max):
-    """Return (bits, t): which of a leaf's triangles the ray hits within (t_min, t_max), and where.
+    """Return (bits, t): the leaf's triangles that the ray hits within (t_min, t_max), and their t.
 
     Two triangles with a common edge compute exactly opposite numbers for it, since products
     commute. The edge functions therefore do not use fma().
@@ -173,8 +173,8 @@ def triangles_on_ray(corner, leaf, ray, t_min, t_max):
     e0, e1, e2 = cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax
     zero, scale = np.float32(0), ray.shear[2]
     inside = (vmin(vmin(e0, e1), e2) >= zero) | (vmax(vmax(e0, e1), e2) <= zero)
-    # t is a mean of the corners', weighted by the edge functions: never outside their range. It is
-    # computed even if no triangle is hit: mispredicting the branch would cost more.
+    # t is a mean of the corners' t weighted by the edge functions, and never outside their range.
+    # Compute it even if no triangle is hit, because mispredicting a branch would cost more.
     area = e0 + e1 + e2
     t = (e0 * az + e1 * bz + e2 * cz) * scale / area
     inside = inside & (area != zero) & (t > t_min) & (t < t_max)
@@ -197,8 +197,7 @@ def _sheared(corner, at, ray):
 def instance_ray(world, space, origin, direction, passes_backs):
     """Return the ray in an instance's space; t stays the same.
 
-    passes_backs: ignore the backs of single-sided surfaces, for viewing rays; light does not pass
-    them.
+    passes_backs: ignore the backs of single-sided surfaces, as viewing rays do but light does not.
     """
     attributes = world.attributes[space]
     if not passes_backs:
@@ -246,7 +245,7 @@ def _push_nearest_last(found, depth, child, node, top, floats, ints):
     while found != 0:
         lane = lowest_bit(found)
         found &= found - 1
-        # Insertion sort: there are few.
+        # Insertion sort, since there are few.
         t, i = floats[lane], top
         while i > base and floats[_DEPTHS + i - 1] < t:
             floats[_DEPTHS + i], ints[i] = floats[_DEPTHS + i - 1], ints[i - 1]
@@ -289,7 +288,8 @@ def closest_in_instance(world, ray, root, base, t_min, t_max, floats, ints):
 def closest_hit(world, origin, direction, t_min, t_max, floats, ints):
     """Return (t, slot, space) of the closest hit along a ray: world space, t_min < t < t_max.
 
-    slot: of a triangle of instance `space`; or FIRST_LEAF - k for sphere k; -1: no hit, t is inf.
+    slot: of a triangle of instance `space`, or FIRST_LEAF - k for sphere k, or -1 for no hit, with
+    t inf.
     floats, ints: scratch of one thread, the stack's size and 16 more elements.
     """
     closest, slot, in_space = t_max, np.int64(-1), np.int64(-1)
@@ -354,7 +354,7 @@ def _push_any(found, child, node, top, ints):
 
 @inlined
 def any_hit(world, origin, direction, t_min, t_max, ints):
-    """Return True if anything is hit with t_min < t < t_max, including backs: for shadows.
+    """Return True if a shadow ray hits anything, including backs, with t_min < t < t_max.
 
     Stops at the first hit found, in no particular order.
     """

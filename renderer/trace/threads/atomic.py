@@ -1,9 +1,10 @@
-"""Atomic counters shared by a kernel's threads: they divide the work, and stop it.
+"""Atomic counters by which a kernel's threads divide their work, and stop it.
 
 These are the atomic operations on the control array. Pieces of work are numbered from 0; each
 thread takes the next number until there are no more.
 
-An ordinary array element would not work: the compiler may read it only once, before the loop.
+An ordinary array element would not work, because the compiler may read it only once, before the
+loop.
 """
 
 from __future__ import annotations
@@ -41,7 +42,7 @@ def count_done(control):
 
 @instruction
 def _next(control):
-    """Return the number of the next piece of work as it is in memory now."""
+    """Return the number of the next piece of work, freshly read from memory."""
 
     def emit(builder):
         at = _address(builder, control, NEXT)

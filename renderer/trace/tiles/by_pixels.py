@@ -2,9 +2,9 @@
 
 If triangles are smaller than pixels, nearly all of a leaf's triangles cover none. Finding the
 triangle that covers each of a few pixels then takes far less than finding the pixels that each
-triangle covers. At some thirty triangles a pixel, two leaves in three end here, before their keys
-are set up. The functions are evaluated by the same operations as in by_squares.py, to the same last
-bit: a pixel's result does not depend on the method.
+triangle covers. At some thirty triangles per pixel, two of three leaves are finished here, before
+their keys are set up. The functions are evaluated by the same operations as in by_squares.py, so a
+pixel's result is the same to the last bit with either method.
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ def _value(f, x, y):
 
 @inlined
 def cover_pixels(view, edges, tile, footprint, squares, depth, scratch):
-    """Return (mask, mask, count): triangles that cover a pixel of the footprint if their volume is
-    positive, and if it is negative; and the number of covered pixels, stored in scratch.pixels.
+    """Return (mask, mask, count): the triangles that cover a pixel of the footprint if their volume
+    is positive, and if it is negative; and the number of covered pixels, stored in scratch.pixels.
 
-    squares, depth: as for rasterize_leaf(). Pixels that see something nearer are skipped.
+    squares, depth: as for rasterize_leaf(). Pixels with a nearer hit are skipped.
     """
     zero = np.float32(0)
     front = back = mask_of(0)

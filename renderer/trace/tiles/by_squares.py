@@ -1,7 +1,7 @@
 """A leaf's 16 triangles against the tile's squares, each a vector of 16 pixels.
 
-Triangles, and then their squares, are rejected by the largest values of their functions there. A
-square that is left costs eight multiply-adds for its 16 pixels.
+Triangles, and then their squares, are rejected by the largest values of their functions. A
+remaining square costs eight multiply-adds for its 16 pixels.
 
 Source: Greene, "Hierarchical Polygon Tiling with Coverage Masks", 1996.
 """
@@ -65,8 +65,8 @@ def _range(f, x_low, x_high, y_low, y_high):
 
 @emitted
 def cover_tile(edges, tile):
-    """Return (mask, mask): triangles that may cover a pixel of the tile if their volume is
-    positive, and if it is negative. tile: from_first_pixel().
+    """Return the masks of triangles that may cover a pixel of the tile if their volume is positive,
+    and if it is negative. tile: from_first_pixel().
     """
     zero = splat(np.float32(0))
     rectangle = tile.x_low, tile.x_high, tile.y_low, tile.y_high
@@ -125,9 +125,9 @@ def _store_function(f, number, x_low, x_high, y_low, y_high, scratch):
 
 @inlined
 def _covered_squares(kept, scratch):
-    """Store the squares that each kept triangle may cover. Return those of any triangle.
+    """Store the squares that each kept triangle may cover. Return the squares of all triangles.
 
-    Squares are in lanes, one triangle after the other.
+    Squares are in lanes; triangles follow one after the other.
     """
     nearest = load(scratch.least, 0)
     store(scratch.covered, 0, splat(np.int32(0)))
@@ -190,7 +190,7 @@ def _call_with_holes(uv, arguments):
 
 @inlined
 def _rasterize_with_holes(view, world, found, leaf, space, tile, square, floats, ints):
-    """Do the same as _rasterize_triangles() for triangles that have holes."""
+    """Same as _rasterize_triangles(), for triangles with holes."""
     scratch = scratch_of(floats, ints)
     points = square_points(view, tile, square)
     x, y = coordinates(square_points(view, from_first_pixel(tile), square))
@@ -211,13 +211,13 @@ def _rasterize_with_holes(view, world, found, leaf, space, tile, square, floats,
 
 @emitted
 def _nearer(key_near, coefficients, lane, x, y, best):
-    """Return (mask, key) of the 16 pixels: where one lane's triangle is nearer than `best`."""
+    """Return (mask, key) of the 16 pixels at which one lane's triangle is nearer than `best`."""
     inside = vmin(
         vmin(_at(coefficients, lane, x, y), _at(coefficients, lane + 3 * LANES, x, y)),
         _at(coefficients, lane + 6 * LANES, x, y),
     )
     key = _at(coefficients, lane + 9 * LANES, x, y)
-    # `best` last: it is the previous triangle's result, which takes longest.
+    # Compare with `best` last, because the previous triangle's result takes longest.
     return (inside >= np.float32(0)) & (key < key_near) & (key > best), key
 
 

@@ -2,9 +2,9 @@
 
 view.py calls it. refine.py then computes the hits in float64.
 
-A pattern is scaled with its object: on a plate that is a thousand times as wide as thick, the cells
-are as thin. A hit that is wrong by a few units in float32's last place is then in another cell,
-although its error is invisible in the image.
+A pattern is scaled with its object, so the cells on a plate a thousand times as wide as thick are
+just as thin. A hit with an error of a few units in float32's last place is then in another cell,
+although the error is invisible in the image.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from lucida.renderer.images.shared_numbers import CELL_NUDGE, CHECKERED
 from lucida.renderer.scene.boxes import world_boxes
 from lucida.renderer.scene.flat import SPECULAR_CHECKERED, FlatScene
 
-# A face in a cell's border is looked up CELL_NUDGE below it: hits must be more accurate than that.
+# A face on a cell's border is looked up CELL_NUDGE below it, so hits must be more accurate.
 _KNOWN = CELL_NUDGE / 2
 
 
@@ -53,8 +53,8 @@ def are_blurred(
 ) -> bool:
     """Return True if any object's cells are too thin for hits with an error of `rounding` in t.
 
-    The rounding is relative to the object's largest t. to_t: t of a point relative to the eye.
-    back: the step of one t in parallel projection; None in perspective, where that is the ray's own
+    The rounding is relative to the object's largest t. to_t: maps a point relative to the eye to
+    t. back: the step of one t in parallel projection; None in perspective, where it is the ray's
     direction.
     """
     if not len(cells.steepest):

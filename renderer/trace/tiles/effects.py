@@ -1,7 +1,7 @@
 """Shadows and mirrors, which image order allows because any ray can be traced.
 
-The secondary rays of a square are traced one after another, on the trees that packets walk. They
-are off by default: a rasterizer has no such rays, so its images cannot agree with them.
+The secondary rays of a square are traced one after another, on the trees that packets walk. The
+effects are off by default, because a rasterizer has no such rays and its images would not agree.
 
 Source: Whitted, "An Improved Illumination Model for Shaded Display", 1980.
 """
@@ -63,10 +63,10 @@ def effects_of(shadows: bool, mirror_depth: int, bounds: np.ndarray) -> Effects:
 
 @inlined
 def lit_pixels(view, world, effects, point, geometric, to_light, light, mask, scratch):
-    """Return the mask of the pixels that see a light.
+    """Return the mask of the lit pixels.
 
-    point: relative to the view's near_point. to_light: unit vectors. light: its position, relative
-    to the same, if it is a point light (light[3] is not 0).
+    point: relative to the view's near_point. to_light: unit vectors. light: its position, also
+    relative to near_point, if it is a point light (light[3] is not 0).
     """
     if not effects.shadows:
         return mask
@@ -102,9 +102,9 @@ def _start(view, scratch, lane):
 
 @emitted
 def reflected_rays(effects, pixels, point, surface):
-    """Return the reflected rays of a square: the law of reflection.
+    """Return the reflected rays of a square by the law of reflection.
 
-    point: where they arrive.
+    point: the hits.
     """
     d = pixels.direction
     geometric, shading = surface.geometric, surface.shading
@@ -134,7 +134,7 @@ def reflectance(scene, objects):
 def trace_square(view, world, pixels, mask, square, scratch):
     """Trace 16 rays, one after another, in the lanes of the mask. Return their t.
 
-    Hits are written where a packet would write them, so that find_surfaces() takes them.
+    Hits are stored as a packet's are, so that find_surfaces() can read them.
     """
     store3(scratch.origins, 0, pixels.origin)
     store3(scratch.directions, 0, pixels.direction)

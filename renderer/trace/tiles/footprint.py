@@ -7,15 +7,14 @@ soon as all pixels of the footprint's squares see something nearer.
 A tile's side planes are functions that grow, from one pixel to the next, by a point's homogeneous
 coordinate H. Their largest values in a box show whether the box reaches into the tile. Divided by
 the box's least H, they are upper bounds, in pixels, of its distance from the tile's sides. Pixels
-are points: none sees what lies between the centres.
+are points, so surfaces between the centres are invisible.
 
-A depth that a large packet of rays has in common bounds nothing once one of its rays sees the
-background. A box is therefore compared with the depths at its own pixels, as in Greene's
-hierarchical depth buffer.
+A single depth for a large packet of rays is useless as a bound once one of its rays escapes. A box
+is therefore compared with the depths at its own pixels, as in Greene's hierarchical depth buffer.
 
 Sources: Greene, Kass and Miller, "Hierarchical Z-buffer visibility", 1993; Fuetterling, Lojewski,
 Pfreundt and Ebert, "Efficient Ray Tracing Kernels for Modern CPU Architectures", JCGT 4(4), 2015
-(large packets, of which nodes further down concern only a part).
+(large packets, only a part of which is tested against lower nodes).
 """
 
 from __future__ import annotations
@@ -29,17 +28,17 @@ from lucida.renderer.trace.vector.memory import load
 
 from .tile import AHEAD, BEHIND, BOTTOM, LEFT, RIGHT, TILE, TOP, largest_of_plane
 
-# A footprint: bits 0 to 15 are the tile's squares; then come, with four bits each, the first and
-# the last column, the first and the last row of the tile's pixels that it holds.
+# A footprint: bits 0 to 15 are the tile's squares. The first and last column and the first and last
+# row of its pixels in the tile follow, with four bits each.
 WHOLE_TILE = np.int32(0xF0F0FFFF - (1 << 32))
 ANY_DEPTH = np.float32(-3e38)  # nearer than everything; finite, for products with it
-# Pixels around a box: the edges of the triangles in it are rounded (by 1/300 at most, view.py).
+# Margin in pixels around a box, since triangle edges are rounded (by at most 1/300, view.py).
 _MARGIN_PX = np.float32(1 / 64)
-# Relative slack of a depth: keys are wrong by a few units in float32's last place (triangle.py,
-# DOUBTFUL), so something that seems this much farther may be nearer.
+# Relative slack of a depth. Keys are wrong by a few units in float32's last place (triangle.py,
+# DOUBTFUL), so a surface that seems this much farther may be nearer.
 _ROUNDING = np.float32(1 + 2.0**-17)
 _LAST = np.float32(TILE - 1)
-# Pixels: a larger child covers most of the tile, and its footprint would exclude little.
+# Larger children, in pixels, cover most of the tile, so their footprints exclude little.
 _SMALL_PX = np.float32(20)
 
 
@@ -50,14 +49,14 @@ def footprints(view, depth, left, right, top, bottom):
     depth: the least Z in each box, or less. left ...: the largest values of the tile's planes.
     """
     one = splat(np.float32(1))
-    # A box behind the eye, or around it, may be seen anywhere.
+    # A box behind or around the eye may be visible anywhere.
     per_h = choose(view.parallel, lambda: one, lambda: one / vmax(depth, np.float32(1e-30)))
     first_column = np.int32(TILE - 1) - _pixels(right, per_h)
     last_column = _pixels(left, per_h)
     first_row = np.int32(TILE - 1) - _pixels(bottom, per_h)
     last_row = _pixels(top, per_h)
     holds = (first_column <= last_column) & (first_row <= last_row)
-    # Bits first to last, as 2^(last + 1) - 2^first; a bit for each row, times a row's bits.
+    # Bits first to last are 2^(last + 1) - 2^first. Multiply a bit for each row by a row's bits.
     four, two = np.int32(4), np.int32(2)
     columns = (splat(two) << (last_column >> two)) - (splat(np.int32(1)) << (first_column >> two))
     low, high = first_row & np.int32(12), last_row & np.int32(12)
@@ -75,13 +74,13 @@ def _pixels(reach, per_h):
 
 @emitted
 def open_squares(view, footprint, depth, scratch):
-    """Return the squares of a footprint, bits, where some pixel sees nothing nearer than depth."""
+    """Return the bits of a footprint's squares in which a pixel sees nothing nearer than depth."""
     return i64(footprint) & bits(_is_open(view, load(scratch.least, 0), depth))
 
 
 @emitted
 def open_pixels(view, footprint, square, depth, scratch):
-    """Return the pixels of a footprint's square, bits, that see nothing nearer than depth."""
+    """Return the bits of a footprint's pixels in a square that see nothing nearer than depth."""
     pixels = i64(footprint) >> 16
     x, y = (square & 3) * 4, (square >> 2) * 4
     first_column, last_column = greater((pixels & 15) - x, 0), lesser((pixels >> 4 & 15) - x, 3)
@@ -108,10 +107,10 @@ def _is_open(view, key, depth):
 
 @emitted
 def children_in_tile(view, box, node, z_far, scratch):
-    """Return (mask, depths, footprints, flag): children that may be seen, nearer than z_far.
+    """Return (mask, depths, footprints, flag) of children that may be visible, nearer than z_far.
 
     A depth is the least Z in the child's box, or a little less. The flag is True if there are
-    footprints; if all children are large, these would exclude nothing, and are the whole tile.
+    footprints. If all children are large, footprints exclude nothing, and are the whole tile.
     """
     at = node * (6 * WIDTH)
     depth = -largest_of_plane(box, at, BEHIND, scratch)

@@ -1,8 +1,8 @@
-"""The packet kernel: it traces the image tile by tile.
+"""The packet kernel, which traces the image tile by tile.
 
-Still image order: for each packet of pixels, find the closest objects; then determine the colours,
-by a stage that is compiled on its own (write.py). Each thread of a team calls trace_packets() with
-the same arguments; they share the blocks.
+It is still image order: for each packet of pixels, find the closest objects, then determine the
+colours, by a stage that is compiled separately (write.py). Each thread of a team calls
+trace_packets() with the same arguments; they share the blocks.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ def trace_packets(camera, world, writing, finished, stack_size, control):
     room = room_before_scratch(camera.lens, camera.rows.size // ROWS)
     floats = np.empty(room + FLOATS + stack_size + 2 * LANES, np.float32)
     ints = np.empty(INTS + 2 * stack_size + 2 * LANES, np.int32)
-    # Keep vectors within cache lines: there, a stored vector can be loaded again at once.
+    # Keep vectors within cache lines, where a stored vector can be loaded again at once.
     first_float, first_int = -(floats.ctypes.data // 4) % LANES, -(ints.ctypes.data // 4) % LANES
     camera, world = pointers(camera), pointers(world)
     while True:
         block = take_next(control)
         if block >= rows * columns:
             return
-        # Here, not before: an array lives until its name is last used.
+        # Take the pointers here, because numba frees an array after its name's last use.
         floats_at = shifted(pointer(floats), first_float + room)
         ints_at = shifted(pointer(ints), first_int)
         scratch = scratch_of(floats_at, ints_at)

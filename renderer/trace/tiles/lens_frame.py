@@ -1,8 +1,8 @@
 """A tile's frame behind a lens, in kernels: the tile's pinhole camera (lens_table.py).
 
 A thread's memory holds the numbers of its tile's frame before the scratch: those of the rays, and
-the rows of each space that the tile's rays have entered. With them, a tile behind a lens is traced
-as any other. Without a lens, all of this is compiled to nothing.
+the rows of each space that the tile's rays have entered. They allow a tile behind a lens to be
+traced like any other. Without a lens, all of this compiles to nothing.
 """
 
 from __future__ import annotations
@@ -12,12 +12,12 @@ from lucida.renderer.trace.vector.memory import as_float64, shifted
 
 from .view import EXTENT, ORIGIN, ROW_X, ROW_Y, ROW_Z, ROWS
 
-_RAY = 32  # float32: room for twelve float64, in whole cache lines
+_RAY = 32  # float32 slots for twelve float64, in whole cache lines
 
 
 @emitted
 def room_before_scratch(lens, spaces):
-    """Return how many float32 a thread needs for its tile's frame."""
+    """Return the number of float32 that a thread needs for its tile's frame."""
     return 0 if lens is None else _RAY + 3 * ROWS * spaces
 
 
@@ -37,7 +37,7 @@ def set_frame(camera, frame, first, room, scratch):
     scratch.frame[0], scratch.frame[1], scratch.frame[2] = frame, room, frame - first
     ray, back, pinhole = _ray_of_tile(room, scratch), camera.lens.back, camera.ray
     for axis in range(3):
-        # The pinhole's direction is varying + x across + y down.
+        # The direction is z + x, y times the steps across and down.
         z, x, y = pinhole[axis], pinhole[3 + axis], pinhole[6 + axis]
         for column in range(3):
             at = 9 * frame + column
@@ -54,7 +54,7 @@ def _ray_of_tile(room, scratch):
 
 @emitted
 def tile_view(view, scratch):
-    """Return the view of the tile whose frame was chosen last: the pinhole camera of its frame."""
+    """Return the view of the tile whose frame was set last: the frame's pinhole camera."""
     lens = view.lens
     if lens is None:
         return view
@@ -97,7 +97,7 @@ def _set_row(view, at, value):
 
 @emitted
 def is_later_frame(lens, scratch):
-    """Return True if the tile had a frame before, whose pixels are written."""
+    """Return True if an earlier frame of the tile has written its pixels."""
     return False if lens is None else scratch.frame[2] > 0
 
 

@@ -2,10 +2,10 @@
 
 The parameter t and the hit's point are computed in views for which t's last place in float32 is too
 coarse: very far away, or so narrow that it moves the point by a part of a pixel (view.py decides).
-The visible primitives are known by then: the cost is a plane or sphere for each that a square sees.
+The visible primitives are known by then, so the cost is a plane or sphere for each one in a square.
 
-Few views are coarse, and a square takes some nanoseconds. This code is therefore called rather than
-inlined, because it would take registers from all views; its results pass through the scratch.
+Few views are coarse, and a square takes some nanoseconds. This code is therefore not inlined, which
+would cost registers in all views; its results pass through the scratch.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ from .view import ACROSS, DOWN, SHARED, VARYING
 
 @inlined
 def refine_square(view, world, tile, square, scratch):
-    """Write exact_t, inf where nothing is hit, rest_of_t and exact_point of a square's pixels.
+    """Write exact_t (inf for no hit), rest_of_t and exact_point of a square's pixels.
 
     The points are relative to the view's near_point.
     """
@@ -92,7 +92,7 @@ def _exact_parameters(view, world, points, z, square, scratch):
 
 @emitted
 def _plane_depths(view, corner, slot, space, points):
-    """Return Z where the rays meet a triangle's plane, F64: N . (p - a) = 0 in camera space."""
+    """Return Z of the rays on a triangle's plane, F64: N . (p - a) = 0 in camera space."""
     at = slot // WIDTH * CORNERS + slot % WIDTH
     a = camera_point(view, space, corner, at)
     n = cross(
@@ -114,7 +114,9 @@ def _plane_depths(view, corner, slot, space, points):
 
 @emitted
 def _sphere_depths(view, spheres, sphere, points, z):
-    """Return Z where the rays meet a sphere, F64: of the two, the hit that was seen at depth z."""
+    """Return Z of the rays' hits on a sphere, F64. z: the packet's depths, which select the
+    root.
+    """
     f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
     m = moment(f, d)
     column, row = to_f64(points.right), to_f64(points.down)
@@ -122,7 +124,7 @@ def _sphere_depths(view, spheres, sphere, points, z):
     a, b, c = dot_lanes(d, d), -dot_lanes(f, d), dot_lanes(f, f) - 1.0
     discriminant = a - dot_lanes(m, m)
     root = vsqrt(select(discriminant > 0.0, discriminant, 0.0))
-    # Compute the root that would cancel as a quotient, as in sphere.py.
+    # Compute the root that would suffer cancellation as a quotient, as in sphere.py.
     ahead = b >= 0.0
     q = b + select(ahead, root, -root)
     near, far = select(ahead, c / q, q / a), select(ahead, q / a, c / q)

@@ -1,6 +1,6 @@
 """The colour of a square's 16 pixels: checker, diffuse light and highlights, in float32 lanes.
 
-The shading model of reference/shade.py, formula by formula.
+The shading model is that of reference/shade.py, formula by formula.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ _SHORTEST_HALF_SQUARE = np.float32(SHORTEST_HALF**2)
 
 @inlined
 def shade_square(view, world, scene, effects, pixels, points, t, point, surface, objects, scratch):
-    """Return the colours of a square: three F32; the background's where there is no object.
+    """Return the colours of a square, three F32; pixels without an object have the background's.
 
     scene: SceneArrays. effects: Effects, or None. points: as for find_surfaces. t: ray parameters;
     None if `points` is. point: the hits. surface, objects: of the hits.
@@ -122,9 +122,10 @@ def _albedo(view, scene, m, points, t, point, geometric, tint, scratch):
 
 @emitted
 def is_other_cell(view, cells, m, points, t, point, geometric, scratch):
-    """Return the mask of pixels that see an odd cell, just below the surface.
+    """Return the mask of pixels in an odd cell, just below the surface.
 
-    Compute in float64, along the ray: a pixel may be small compared with the cell's coordinates.
+    It is computed in float64, along the ray, because a pixel may be small compared with the cell's
+    coordinates.
     """
     across = normalized_lanes(
         (
@@ -175,7 +176,7 @@ def _half_cell(view, cells, row, points, t, scratch):
 
 @emitted
 def _half_cell_at(view, cells, row, point):
-    """Return the same for points relative to the view's near_point."""
+    """Return _half_cell() for points relative to the view's near_point."""
     a, b, c = 0.5 * cells[row], 0.5 * cells[row + 1], 0.5 * cells[row + 2]
     d = 0.5 * cells[row + 3] + _half_along(cells, row, view.near_point, 0)
     x, y, z = to_f64(point[0]), to_f64(point[1]), to_f64(point[2])
@@ -210,7 +211,7 @@ def shade_material(
         if lights[lamp + 3] != np.float32(0):
             to_light = minus(to_light, point)
             per_length = inverse_length(to_light)
-            # At the light itself there is no direction to it, and no light.
+            # A point at the light itself has no direction to it, and no light.
             is_apart = per_length < _PER_NEAREST_LIGHT
             to_light = times(select(is_apart, per_length, np.float32(0)), to_light)
         cosine = vmax(dot_lanes(shading, to_light), np.float32(0))
@@ -228,7 +229,7 @@ def shade_material(
         half = minus(to_light, along)
         square = dot_lanes(half, half)
         cosine = dot_lanes(shading, half)
-        # Highlights are small: most squares have none of most lights.
+        # Highlights are small, so most squares have none of most lights.
         is_bright = cosine * cosine > square * (dark_cosine * dark_cosine)
         is_lit = in_light & is_bright & (cosine > np.float32(0)) & (square >= _SHORTEST_HALF_SQUARE)
         if lights[lamp + 3] != np.float32(0):

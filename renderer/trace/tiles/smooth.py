@@ -1,6 +1,6 @@
 """Interpolation of a triangle's vertices at its pixels: smooth normals and colours.
 
-Barycentric coordinates are computed for one triangle and the pixels of a square that see it.
+Barycentric coordinates are computed for one triangle at the pixels of a square.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ def barycentrics(view, corner, slot, space, points, scratch):
     points: the pixels' image points (tile.py).
 
     Each is an edge function over the sum of the three. They are set up in float64 and around the
-    square, so that small triangles and narrow views keep their digits. The last triangle's are kept
-    in the scratch: a tile may see a single one.
+    square, so that small triangles and narrow views keep their digits. The scratch keeps the last
+    triangle's, because a tile may show a single one.
     """
     edges, slot_32, space_32 = as_float64(scratch.kept_edges), i32(slot), i32(space)
 
@@ -82,7 +82,7 @@ def barycentrics_at(view, world, slot, space, point):
     u = minus(triple_of_lane(world.corner, at + 3 * WIDTH), a)
     v = minus(triple_of_lane(world.corner, at + 6 * WIDTH), a)
     n = cross(u, v)
-    # Vectors whose product with a point of the triangle is b1, or b2, up to a constant.
+    # The product of these vectors with a point of the triangle is b1 or b2, up to a constant.
     scale = 1.0 / dot(n, n)
     b1 = _weight(view, world, space, times(scale, cross(v, n)), a, point)
     b2 = _weight(view, world, space, times(scale, cross(n, u)), a, point)
@@ -101,7 +101,7 @@ def triple_of_lane(array, at):
 
 @emitted
 def _weight(view, world, space, g, a, point):
-    """Return g . (q - a), q the object's point that is seen at a point of the world."""
+    """Return g . (q - a). q: a point of the world, in the object's space."""
     m, r = world.object_from_world, 12 * space
     x = g[0] * m[r] + g[1] * m[r + 4] + g[2] * m[r + 8]
     y = g[0] * m[r + 1] + g[1] * m[r + 5] + g[2] * m[r + 9]
@@ -164,8 +164,8 @@ def _is_set(normals, at):
 
 @emitted
 def agrees(normals, vertices, geometric, lane):
-    """Return True if the sum of a triangle's vertex normals is not on the other side of one lane's
-    geometric normal.
+    """Return True unless the sum of a triangle's vertex normals is opposite to one lane's geometric
+    normal.
     """
     a, b = triple(normals, vertices.a), triple(normals, vertices.b)
     x, y, z = plus(plus(a, b), triple(normals, vertices.c))

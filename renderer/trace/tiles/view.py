@@ -1,4 +1,4 @@
-"""The camera as packets see it: image points in pixels, and rows for each instance.
+"""The camera for packets: image points in pixels, and rows for each instance.
 
 The numbers are derived in float64.
 
@@ -10,10 +10,10 @@ has the camera coordinates (X, Y, Z), affine in p, such that
     perspective: p is seen at (X / Z, Y / Z);   parallel: p is seen at (X, Y).
 
 With H = Z in perspective and H = 1 in parallel projection, (X, Y, H) are homogeneous coordinates of
-the image point, and both projections are one. The key K, 1 / Z in perspective and -Z in parallel
+the image point in both projections. The key K, 1 / Z in perspective and -Z in parallel
 projection, is largest at the nearest hit, and on a plane it is an affine function of (x, y).
 
-An instance is nothing but other rows: camera_from_object = camera_from_world world_from_object.
+An instance only needs other rows: camera_from_object = camera_from_world world_from_object.
 """
 
 from __future__ import annotations
@@ -31,40 +31,42 @@ from lucida.renderer.trace.bvh.instances import IS_SINGLE_SIDED, Instances
 from .cells import Cells, are_blurred
 from .lens_table import LensTable
 
-# A space's numbers: an origin o, near the eye; for X, Y and Z a row (a, b, c, d) of the affine map
-# a (p - o)_x + b (p - o)_y + c (p - o)_z + d; and the largest |p - o| of a coordinate.
+# A space's numbers: an origin o near the eye; a row (a, b, c, d) of the affine map
+# a (p - o)_x + b (p - o)_y + c (p - o)_z + d for each of X, Y and Z; the largest coordinate of p -
+# o.
 ORIGIN, ROW_X, ROW_Y, ROW_Z, EXTENT, ROWS = 0, 3, 7, 11, 15, 16
 
-# The rays: direction (perspective) or origin (parallel) at the image's centre, and what a pixel
-# to the right and a pixel down add to it; then the other, which all pixels share.
+# The rays: direction (perspective) or origin (parallel) at the image's centre, and its steps per
+# pixel to the right and down; then the other one, which all pixels share.
 VARYING, ACROSS, DOWN, SHARED = np.array([0, 3, 6, 9])
 
-# float32 has digits for this many pixels: the corners of a space whose image would be larger are
-# transformed in float64. Three roundings then amount to 1/300 of a pixel.
+# float32 has digits for this many pixels, which limits three roundings to 1/300 of a pixel. The
+# corners of a space whose image would be larger are transformed in float64.
 _FLOAT32_PX = 16384.0
 _SLACK_PX = 1e-2  # around the outlines of spheres
-# The relative error of a packet's t: a few units in float32's last place. It may move a hit along
-# its ray by this many pixels, or by this part of the scene's size, but not by more.
+# The relative error of a packet's t, a few units in float32's last place. It may move a hit along
+# its ray by at most this many pixels, or this part of the scene's size.
 _T_ROUNDING = 2.0**-22
 _HIT_PX, _HIT_OF_SCENE = 1 / 512, 2.0**-17
 
 
 class PacketView(NamedTuple):
-    """See the module. Spaces are the instances', then the world's.
+    """The camera's numbers; see the module. Spaces are the instances', then the world's.
 
-    left, above: float64, the image point of the first pixel's corner. width, height: of the pixels
-    that are traced, which may be some rows of the image.
-    slack_px: tests that only reject take tiles to be larger by this much, which covers rounding.
-    key_far < K < key_near counts as a hit; z_near, z_far: the same as Z. scale: t / Z.
+    left, above: float64, the image point of the first pixel's corner. width, height: of the traced
+        pixels, which may be some rows of the image.
+    slack_px: margin of tiles, against rounding, in tests that only reject.
+    key_near, key_far: bounds of hits' K; z_near, z_far: the same bounds as Z. scale: t / Z.
     coarse: True if float32 is too coarse for hits (refine.py).
-    rows: float32, ROWS a space; rows_exact: the same in float64. exact: uint8, whether to use them.
+    rows: float32, ROWS a space; rows_exact: the same in float64. exact: uint8, 1 to use the latter.
     ray: float64, 12 numbers in world space (VARYING ...).
     near_point: float64, 3: the world's point that float32 points are relative to (near_point()).
-    back: float32, for each space 0, or, where backs are not seen, the sign of their triangles'
-        volumes (triangle.py).
+    back: float32, for each space the sign of the volumes of invisible backs (triangle.py), or 0.
     sphere_box: float32, 4 a sphere: left, top, right, bottom of its image, or a superset.
     lens, pinhole_rows: None without a lens. With one, all numbers are those of the camera without
-        it, and pinhole_rows is rows_exact; kernels compute each tile's from these (lens_frame.py).
+    it,
+        and pinhole_rows is rows_exact; kernels compute each tile's numbers from these
+        (lens_frame.py).
     """
 
     parallel: bool
@@ -170,7 +172,7 @@ def _rows(
     parallel: bool,
     instances: Instances,
 ) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
-    """Return ROWS numbers for each space, (n, ROWS), and which spaces need float64."""
+    """Return ROWS numbers for each space, (n, ROWS), and a mask of spaces that need float64."""
     matrix, bounds = instances.world_from_space, instances.bounds
     to_eye = eye - matrix[:, :3, 3]
     eye_in_space = np.linalg.solve(matrix[:, :3, :3], to_eye[..., None])[..., 0]
@@ -202,8 +204,9 @@ def _rows(
 
 
 def _backs(rows: NDArray[np.float64], instances: Instances) -> NDArray[np.float32]:
-    """Return PacketView.back: the front is that of the instance's own space, whatever its place
-    mirrors."""
+    """Return PacketView.back. The instance's own space decides the front, even if it is
+    mirrored.
+    """
     is_single = np.append(instances.world.attributes & IS_SINGLE_SIDED > 0, False)
     linear = rows[:, ROW_X:EXTENT].reshape(-1, 3, 4)[..., :3]
     return (is_single * np.sign(np.linalg.det(linear))).astype(np.float32)
@@ -212,9 +215,7 @@ def _backs(rows: NDArray[np.float64], instances: Instances) -> NDArray[np.float3
 def _is_coarse(
     farthest: float, ray: NDArray[np.float64], parallel: bool, instances: Instances
 ) -> bool:
-    """Return True if t in float32 is too coarse for a hit's place. farthest: t; ray:
-    PacketView's.
-    """
+    """Return True if float32 is too coarse for t. farthest: the largest t. ray: PacketView's."""
     numbers = ray.tolist()
     across, down, direction = (
         math.hypot(*numbers[at : at + 3]) for at in (ACROSS, DOWN, SHARED if parallel else VARYING)
@@ -233,11 +234,11 @@ def _sphere_boxes(
     instances: Instances,
     lens: LensTable | None,
 ) -> NDArray[np.float32]:
-    """Return rectangles around the spheres' images; the whole plane for one behind the eye, and
-    behind a lens.
+    """Return rectangles around the spheres' images; the whole plane for one behind the eye, or with
+    a lens.
 
-    A line of the image, a x + b = 0, is a plane through the eye; it touches the sphere where its
-    distance from the centre is the radius: a quadratic equation for the line's place.
+    A line of the image, a x + b = 0, is a plane through the eye. It touches the sphere if its
+    distance from the centre is the radius, which is a quadratic equation for the line's place.
     Source: Mara and McGuire, "2D Polyhedral Bounds of a Clipped, Perspective-Projected 3D Sphere",
     2013.
     """

@@ -116,5 +116,5 @@ def test_a_wrong_lens_is_told(words, told, capsys):
 
 
 def test_parallel_rays_and_a_lens_are_refused():
-    with pytest.raises(LucidaError, match=r"--lens.*parallel rays pass through no lens"):
+    with pytest.raises(LucidaError, match=r"--lens.*parallel rays cannot pass through a lens"):
         seen("--lens", "equisolid", "--projection", "parallel")

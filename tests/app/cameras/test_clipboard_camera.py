@@ -88,7 +88,7 @@ def test_of_a_whole_scene_file_the_camera_is_read(camera: str, view: View) -> No
         (
             "camera_from_world = 1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1\nclip_from_camera = "
             + "1 " * 16,
-            "clip_from_camera: is no projection",
+            "clip_from_camera: is not a projection",
         ),
     ],
 )

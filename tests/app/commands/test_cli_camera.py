@@ -207,9 +207,7 @@ class TestView:
 
     def test_a_size_that_the_file_does_not_say_is_told_with_the_reason(self, capsys):
         Path("k.json").write_text(json.dumps({"fx": 90, "fy": 90, "cx": 31.5, "cy": 23.5}))
-        line = (
-            "lucida: k.json: no image size is given: 64 x 48, whose middle is the principal point"
-        )
+        line = "lucida: k.json: no image size is given: 64 x 48, centred on the principal point"
         depth, err = self.draw(capsys, "--view", "k.json")
         assert (depth.shape, err) == ((48, 64), f"{line}\n")
         Path("k.json").write_text(

@@ -72,5 +72,5 @@ def test_a_view_files_lens_is_checked(lens, message):
 
 
 def test_parallel_rays_pass_through_no_lens():
-    with pytest.raises(LucidaError, match="parallel rays pass through no lens"):
+    with pytest.raises(LucidaError, match="parallel rays cannot pass through a lens"):
         replace(PINHOLE, projection="parallel", lens=Lens("brown"))

@@ -109,7 +109,7 @@ def test_the_middle_is_of_the_bounds():
     [
         (a_scene(lights=()), "the scene has no light"),
         (a_scene(lights=(DirectionalLight((0, 0, -1), (0, 0, 0)),)), "the scene has no light"),
-        (a_scene(lights=(BACK,)), "no light reaches what is seen"),
+        (a_scene(lights=(BACK,)), "no light reaches the visible surfaces"),
         (a_scene(lights=(), ambient=(0.1, 0.1, 0.1)), ""),
         (a_scene(), ""),
     ],

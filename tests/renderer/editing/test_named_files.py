@@ -48,7 +48,7 @@ def items(scene):
 
 def test_an_image_of_an_absolute_path_is_refused_although_the_scene_has_it(folder):
     scene = load_scene(folder / "scene.toml")
-    with pytest.raises(LucidaError, match="not in the folder of what names it"):
+    with pytest.raises(LucidaError, match="not in the folder of the file that names it"):
         changing.set_field(scene, items(scene)[:1], "material.texture", str(folder / "tiles.png"))
 
 

@@ -32,7 +32,7 @@ def changed(changes: dict[str, Any]) -> dict[str, Any]:
     return tree
 
 
-OUTSIDE = "is not in the folder of what names it"
+OUTSIDE = "is not in the folder of the file that names it"
 GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
     (
         {"nodes": [{"mesh": 0, "children": [1]}, {"children": [0]}]},
@@ -65,8 +65,8 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
         {"accessors.1": {"bufferView": 0, "componentType": 5126, "count": 3, "type": "SCALAR"}},
         "accessors[1]: has indices of float32",
     ),
-    ({"bufferViews.0.byteLength": 10**6}, "bufferViews[0]: ends behind its buffer"),
-    ({"buffers.0.uri": None}, "bufferViews[0]: ends behind its buffer of 0 bytes"),
+    ({"bufferViews.0.byteLength": 10**6}, "bufferViews[0]: ends after its buffer"),
+    ({"buffers.0.uri": None}, "bufferViews[0]: ends after its buffer of 0 bytes"),
     ({"buffers.0.uri": "/etc/passwd"}, f"uri: '/etc/passwd' {OUTSIDE}"),
     ({"buffers.0.uri": "link.bin"}, f"uri: 'link.bin' {OUTSIDE}"),
 ]
@@ -97,10 +97,10 @@ IN_CHUNK = changed({"buffers.0.uri": None})
     [
         (
             glb(IN_CHUNK, declared=10**9),
-            "is no whole glTF 2.0: version 2, 1000000000 bytes",
+            "is not a complete glTF 2.0: version 2, 1000000000 bytes",
         ),
-        (glb(IN_CHUNK).replace(b"JSON", b"NOSJ"), "is no whole glTF 2.0"),
-        (struct.pack("<4sII", b"glTF", 1, 20) + bytes(20), "is no whole glTF 2.0: version 1"),
+        (glb(IN_CHUNK).replace(b"JSON", b"NOSJ"), "is not a complete glTF 2.0"),
+        (struct.pack("<4sII", b"glTF", 1, 20) + bytes(20), "is not a complete glTF 2.0: version 1"),
     ],
 )
 def test_glb(content: bytes, message: str, tmp_path: Path) -> None:

@@ -152,7 +152,7 @@ def test_bytes_behind_the_triangles_of_an_stl_cost_a_line(tmp_path: Path) -> Non
     assert not loaded(tmp_path, "t.stl", data).notes
     scene = loaded(tmp_path, "t.stl", data + b"\r\n")
     assert len(scene.objects[0].shape.faces) == 1
-    assert note(scene) == "STL: not read: 2 bytes behind the triangles"
+    assert note(scene) == "STL: not read: 2 bytes after the triangles"
 
 
 LIGHTS = "KHR_lights_punctual"

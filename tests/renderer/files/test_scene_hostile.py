@@ -129,7 +129,7 @@ def ply(vertices: int | str, faces: int | str, form: str = "ascii") -> str:
 
 POINTS = "0 0 0\n1 0 0\n0 1 0\n"
 BINARY = "binary_little_endian"
-UNLIKE = "does not hold what its PLY header declares"
+UNLIKE = "does not hold the data that its PLY header declares"
 BINARY_POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()
 
 
@@ -179,11 +179,11 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
     [
         (
             stl(4_000_000_000, 1),
-            "is no STL of 4000000000 triangles: it has 134 bytes",
+            "is not an STL of 4000000000 triangles: it has 134 bytes",
         ),
-        (stl(2000, 1999), "is no STL of 2000 triangles: it has 100,034 bytes"),
-        (stl(1, 1)[:60], "is no STL of 0 triangles"),
-        (f"solid x\n{FACET}", "is no STL"),
+        (stl(2000, 1999), "is not an STL of 2000 triangles: it has 100,034 bytes"),
+        (stl(1, 1)[:60], "is not an STL of 0 triangles"),
+        (f"solid x\n{FACET}", "is not an STL"),
         (f"solid x\n{FACET.replace('vertex 1 0 0', 'vertex 1 0')}endsolid\n", "has a vertex"),
     ],
 )

@@ -77,7 +77,7 @@ def test_an_obj_files_image(tmp_path: Path) -> None:
 WRONG_NAMES = {
     "missing": ("gone.png", "'gone.png' does not exist"),
     "above": ("../a.png", "'../a.png' is not in the folder"),
-    "no image": ("m.mtl", "'m.mtl' is none of PNG"),
+    "no image": ("m.mtl", "'m.mtl' is not one of PNG"),
     "a link": ("link.png", "'link.png' is not in the folder"),
 }
 
@@ -135,7 +135,7 @@ def test_a_gltf_textures_transform_moves_the_same_place(
 
 WRONG_GLTF = {
     "no image": ({}, {}, "bufferView: is missing"),
-    "a damaged one": ({"bufferView": 0}, {}, "is none of PNG"),
+    "a damaged one": ({"bufferView": 0}, {}, "is not one of PNG"),
     "no texture": ({"bufferView": 2}, {"textures": []}, "names entry 0"),
     "another kind": ({"bufferView": 2}, {"textures": [{}]}, "have no image of a known kind"),
 }

@@ -120,7 +120,7 @@ def test_a_tracer_takes_batches():
         assert (tracer.closest_hits(origins, directions, 0, 2.2)[1] == -1).all()
         with pytest.raises(LucidaError, match="n x 3"):
             tracer.closest_hits([0, 1, 2], [[0, 0, 1]])
-        with pytest.raises(LucidaError, match="one a ray"):
+        with pytest.raises(LucidaError, match="one per ray"):
             tracer.closest_hits(np.zeros((2, 3)), np.ones((1, 3)))
     with pytest.raises(LucidaError, match="closed"):
         tracer.closest_hits(origins, directions)

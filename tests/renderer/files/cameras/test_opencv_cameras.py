@@ -121,7 +121,7 @@ def test_ros_s_rectified_image_is_not_used_and_named() -> None:
     assert (K[0, 0], K[1, 2]) == pytest.approx((438.783367, 243.738352))
     assert pytest.approx(np.eye(3)) == R and not t.any()
     assert camera.camera.lens is not None and camera.camera.lens.coefficient("p1") == 1e-05
-    assert "no pose: the camera stands at the origin" in found.taken
+    assert "no pose: the camera is at the origin" in found.taken
     assert {"not used: projection_matrix", "not used: rectification_matrix"} <= {*found.notes}
 
 
@@ -208,7 +208,7 @@ def test_a_size_that_is_not_given_is_told() -> None:
         ({"K": K[:2]}, "K: has 6 numbers; give 9 or 4"),
         ({"K": np.transpose(K).tolist()}, "K: its rows"),
         ({"K": {"sizes": [9], "data": [1, 2]}}, "K: has 2 numbers; give 9 or 4"),
-        ({"image_size": [640.5, 480]}, "image_size: 640.5 is no count of pixels"),
+        ({"image_size": [640.5, 480]}, "image_size: 640.5 is not a count of pixels"),
         ({"extrinsics": np.transpose(POSE).tolist()}, "extrinsics: its last row.*transposed"),
         ({"D": [0.1, 0.2]}, "D: has 2 numbers; give 4 or 5 or 8"),
     ],

@@ -103,7 +103,7 @@ def changed(place: tuple[int, int], number: object, clip: bool = False) -> str:
     ("text", "told"),
     [
         (changed((3, 0), 0.5), "view: is not affine"),
-        (changed((3, 2), 1, clip=True), "projection: is no projection"),
+        (changed((3, 2), 1, clip=True), "projection: is not a projection"),
         (changed((2, 3), 0, clip=True), "projection: its third row .* has no near before far"),
         ("view = 1" + " " * 2_000_000, "is too large"),
         (json.dumps({"view": [1, 2], "projection": CLIP.tolist()}), "view: has 2 numbers; give 16"),
