@@ -7,10 +7,8 @@ from importlib.util import find_spec
 
 
 def installing(packages: str) -> str:
-    """Return the command that installs packages for this interpreter, wherever it is from: pip, uv
-    or pipx.
-    """
-    if find_spec("pip") is None:  # as uv makes environments
+    """Return the command that installs packages for this interpreter, from pip, uv or pipx."""
+    if find_spec("pip") is None:  # as in uv's environments
         return f"uv pip install --python {sys.executable} {packages}"
     return f"{sys.executable} -m pip install {packages}"
 

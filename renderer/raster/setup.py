@@ -277,9 +277,9 @@ def light_rows(flat: FlatScene, space: ImageSpace) -> NDArray[np.float32]:
 def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray[np.float32]:
     """Return rows (spheres, SPHERE_TEXELS, 4).
 
-    Centre in image coordinates, radius | from the centre to the origin of the ray through the
-    image's centre, |that|^2 - radius^2 | from the object's anchor to the centre, the object's
-    number. objects: from object_rows().
+    The texels are: centre in image coordinates, radius | c, from the centre to the origin of the
+    ray through the image's centre, |c|^2 - radius^2 | from the object's anchor to the centre, the
+    object's number. objects: from object_rows().
     """
     rows = np.zeros((len(flat.spheres), SPHERE_TEXELS, 4), np.float32)
     to_center, radius = flat.spheres[:, :3] - space.eye, flat.spheres[:, 3]
