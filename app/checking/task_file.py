@@ -23,13 +23,7 @@ from lucida.renderer.scene.limits import TOML_BYTES
 from lucida.renderer.system.errors import LucidaError, under
 
 from .cases import camera_kinds
-from .conventions import (
-    CAMERA_WORDS,
-    PAIRS,
-    PIXEL_WORDS,
-    Conventions,
-    Named,
-)
+from .conventions import CAMERA_WORDS, PAIRS, PIXEL_WORDS, Conventions, Named
 from .kinds import KINDS
 from .kinds.kind import CheckKind
 from .task_schema import ConventionsTable, TaskFile, TaskTable

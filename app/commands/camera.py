@@ -15,10 +15,7 @@ from typing import TYPE_CHECKING
 from lucida.renderer.system.errors import LucidaError, counted, errors_as, one_line, visible
 
 from . import arguments as common
-from .given_camera import (
-    say_changes,
-    say_notes,
-)
+from .given_camera import say_changes, say_notes
 
 if TYPE_CHECKING:
     from lucida.renderer.files.cameras import CameraSet, PosedCamera

@@ -13,14 +13,7 @@ from lucida.app.state.kept_lecture import Judgement
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 
-from .exercises import (
-    RayExercise,
-    VectorExercise,
-    Wanted,
-    is_close,
-    is_multiple,
-    vectors,
-)
+from .exercises import RayExercise, VectorExercise, Wanted, is_close, is_multiple, vectors
 from .model import Exercise
 
 BASIS: dict[str, Role] = {"u": "u", "v": "v", "w": "w"}

@@ -31,14 +31,7 @@ from .inheriting import inherited
 from .model import Lecture, Step, Written
 from .old_format import REMEDY, fields_of, kind_of, old_builds
 from .reading_exercises import exercise_of, pixel_of
-from .schema import (
-    DEFAULT_VIEWS,
-    VIEWS,
-    BuildTable,
-    LectureFile,
-    OldStepTable,
-    StepTable,
-)
+from .schema import DEFAULT_VIEWS, VIEWS, BuildTable, LectureFile, OldStepTable, StepTable
 from .step_options import files_named, options_from_table, with_files
 from .written import formulas_written, texts_of
 

@@ -28,14 +28,7 @@ from lucida.renderer.system.cancelling import Cancellation, CancelledError, canc
 from lucida.renderer.system.errors import describe, one_line
 
 from .kinds import CODE_ENDING
-from .opening import (
-    Opened,
-    OpenedLecture,
-    OpenedScene,
-    OpenedView,
-    open_sources,
-    reread,
-)
+from .opening import Opened, OpenedLecture, OpenedScene, OpenedView, open_sources, reread
 
 LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
 

@@ -36,13 +36,7 @@ from .checks import (
     volume,
 )
 from .image_plane import WHOLE, Part, Projected, Ray, Size
-from .intrinsics import (
-    Intrinsics,
-    as_camera_from_world,
-    camera_fields,
-    check_for_lens,
-    decomposed,
-)
+from .intrinsics import Intrinsics, as_camera_from_world, camera_fields, check_for_lens, decomposed
 from .lenses import Lens, check_lens
 
 # The near clip of an object that extends behind the eye, relative to its farthest t. GL clips in

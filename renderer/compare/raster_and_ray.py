@@ -34,13 +34,7 @@ from lucida.renderer.scene.model import Scene
 from lucida.renderer.scene.precision import check_precision
 
 from .why_black import hits_nothing, why_nothing_is_hit
-from .why_different import (
-    CAUSES,
-    DEPTH_RELATIVE,
-    NORMAL,
-    Differing,
-    explained,
-)
+from .why_different import CAUSES, DEPTH_RELATIVE, NORMAL, Differing, explained
 
 COLOR = 2 / 255  # after the display transform
 

@@ -21,26 +21,10 @@ from .changing import (
     set_scene_field,
     table_of,
 )
-from .documents import (
-    ChangedOnDiskError,
-    file_of,
-    is_unsaved,
-    save,
-    suggested_file,
-)
+from .documents import ChangedOnDiskError, file_of, is_unsaved, save, suggested_file
 from .materials import set_material
 from .moving import bounds_of, shift
-from .objects import (
-    LIGHTS,
-    SHAPES,
-    add,
-    delete,
-    duplicate,
-    hide,
-    model_table,
-    new_table,
-    rename,
-)
+from .objects import LIGHTS, SHAPES, add, delete, duplicate, hide, model_table, new_table, rename
 from .outline import OutlineRow, outline
 
 __all__ = [

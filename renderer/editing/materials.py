@@ -13,16 +13,7 @@ from typing import Any
 from lucida.renderer.files.saving import material_table
 from lucida.renderer.scene.model import Scene
 
-from .changing import (
-    Item,
-    as_tables,
-    entry_of,
-    find,
-    listed,
-    origin_of,
-    set_field,
-    with_listed,
-)
+from .changing import Item, as_tables, entry_of, find, listed, origin_of, set_field, with_listed
 
 
 def set_material(scene: Scene, items: Sequence[Item], field: str, value: Any) -> Scene:

@@ -13,14 +13,7 @@ from lucida.renderer.scene.boxes import extent, world_boxes
 from lucida.renderer.scene.model import Scene, Shape, Sphere
 from lucida.renderer.system.errors import LucidaError
 
-from .changing import (
-    Item,
-    as_tables,
-    entry_of,
-    fields_of,
-    find,
-    with_changed,
-)
+from .changing import Item, as_tables, entry_of, fields_of, find, with_changed
 
 Floats = NDArray[np.float64]
 

@@ -11,17 +11,7 @@ from lucida.renderer.files.scene_file import new_keys
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError
 
-from .changing import (
-    Item,
-    Kind,
-    Table,
-    as_tables,
-    find,
-    listed,
-    origin_of,
-    set_field,
-    with_listed,
-)
+from .changing import Item, Kind, Table, as_tables, find, listed, origin_of, set_field, with_listed
 
 SHAPES = ("sphere", "box", "rectangle", "disk", "cylinder", "cone", "torus")
 LIGHTS = ("point", "directional")

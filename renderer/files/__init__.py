@@ -11,13 +11,7 @@
 Knows nothing of renderers, pixels or windows.
 """
 
-from .load import (
-    BUILTIN_SCENES,
-    EMPTY_SCENE,
-    SCENE_ENDINGS,
-    SCENE_NAMES,
-    load_scene,
-)
+from .load import BUILTIN_SCENES, EMPTY_SCENE, SCENE_ENDINGS, SCENE_NAMES, load_scene
 from .saving import save_scene
 from .views import load_view, save_view, view_from_toml, view_to_toml
 

@@ -12,13 +12,7 @@ from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.system.file_dependencies import Noted, noting
 
 from .models.models import model_scene
-from .reading import (
-    MODEL_ENDINGS,
-    absence,
-    full_path,
-    path_of,
-    suggestion,
-)
+from .reading import MODEL_ENDINGS, absence, full_path, path_of, suggestion
 from .scene_file import read_scene_file
 
 BUILTIN_SCENES = (

@@ -10,12 +10,7 @@ from typing import Any
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene import framing, shapes
-from lucida.renderer.scene.limits import (
-    LIGHTS,
-    OBJECTS,
-    TOML_BYTES,
-    TRIANGLES,
-)
+from lucida.renderer.scene.limits import LIGHTS, OBJECTS, TOML_BYTES, TRIANGLES
 from lucida.renderer.scene.material import Material, parse_color
 from lucida.renderer.scene.model import (
     Checker,

@@ -20,13 +20,7 @@ from .cloud import PREMULTIPLIED, CloudPicture
 from .display import exposure_factor
 from .lines import BLENDING, Layer, LineRenderer
 from .resources import Owner
-from .screen_pass import (
-    SizedTarget,
-    cover,
-    new_array,
-    plain_state,
-    set_uniforms,
-)
+from .screen_pass import SizedTarget, cover, new_array, plain_state, set_uniforms
 from .targets import Textures
 
 Size = tuple[int, int]

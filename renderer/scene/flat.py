@@ -28,15 +28,7 @@ from lucida.renderer.system.errors import LucidaError
 
 from .boxes import extent, world_boxes
 from .flat_textures import TextureArrays, on_sphere, texture_arrays
-from .model import (
-    Checker,
-    Mesh,
-    PointLight,
-    Scene,
-    SceneObject,
-    Shape,
-    Sphere,
-)
+from .model import Checker, Mesh, PointLight, Scene, SceneObject, Shape, Sphere
 
 F32 = NDArray[np.float32]
 F64 = NDArray[np.float64]

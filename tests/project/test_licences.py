@@ -10,7 +10,7 @@ from packaging.requirements import Requirement
 
 ALLOWED = re.compile(
     r"\b(MIT|0?BSD|Apache|ISC|PSF|MPL|LGPL|Zlib|CC0)\b|\bRedistribution and use in source and"
-    r"|^Permission is hereby granted, free of charge"  # MIT's text without its name
+    r"|\bPermission is hereby granted, free of charge"  # MIT's text without its name
 )
 FORBIDDEN = re.compile(r"\bA?GPL|\bGeneral Public License")
 

@@ -8,14 +8,7 @@ from dataclasses import replace
 from imgui_bundle import imgui
 
 from lucida.app.cameras.editing import Draft, edit_field
-from lucida.app.cameras.lens_choices import (
-    KINDS,
-    NO_LENS,
-    PANORAMA,
-    RADIUS,
-    of_model,
-    with_lens,
-)
+from lucida.app.cameras.lens_choices import KINDS, NO_LENS, PANORAMA, RADIUS, of_model, with_lens
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import rows
 from lucida.app.ui.fields import Scale

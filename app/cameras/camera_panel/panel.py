@@ -22,13 +22,7 @@ from .actions import go_home, go_to_canonical, switch_projection
 from .lens_section import lens_section
 from .more_section import more_section
 from .projection import PanelContext, component, projection_numbers
-from .sections import (
-    Sections,
-    Wish,
-    header,
-    look_section,
-    words_section,
-)
+from .sections import Sections, Wish, header, look_section, words_section
 
 ROLES = {
     "eye": ("e", "eye", "The eye: where all viewing rays start (perspective)."),

@@ -25,16 +25,7 @@ from lucida.app.checking.cases import generator, point, rounded
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.checking.words import FIRST_CASES, described
 
-from .kind import (
-    FLOAT32,
-    CheckKind,
-    Floats,
-    in_order,
-    is_miss,
-    named,
-    number,
-    text_of,
-)
+from .kind import FLOAT32, CheckKind, Floats, in_order, is_miss, named, number, text_of
 from .shapes import hits, tolerance
 
 if TYPE_CHECKING:

@@ -20,11 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from lucida.app.checking.cases import shots
-from lucida.app.checking.conventions import (
-    Conventions,
-    Shot,
-    argument_lists,
-)
+from lucida.app.checking.conventions import Conventions, Shot, argument_lists
 from lucida.app.checking.tasks import CheckCase, CheckTask
 from lucida.app.checking.words import described
 from lucida.renderer.camera.camera import Camera

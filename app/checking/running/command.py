@@ -14,13 +14,7 @@ from lucida.app.checking.tasks import Call, Failure, Limits, Run
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 from .account import Account
-from .program import (
-    ProgramOverError,
-    ProgramStudent,
-    StudentProgram,
-    told_call,
-    whole_number,
-)
+from .program import ProgramOverError, ProgramStudent, StudentProgram, told_call, whole_number
 
 
 class CommandStudent(ProgramStudent):

@@ -17,13 +17,7 @@ from lucida.renderer.system.child import interpreter
 from lucida.renderer.system.errors import LucidaError, one_line, shortened
 
 from .account import Account
-from .program import (
-    ProgramOverError,
-    ProgramStudent,
-    StudentProgram,
-    told_call,
-    whole_number,
-)
+from .program import ProgramOverError, ProgramStudent, StudentProgram, told_call, whole_number
 
 _LONGEST_FILE = 4 << 20  # bytes
 _LONGEST_TEXT = 300  # of a message

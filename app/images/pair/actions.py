@@ -9,12 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 
-from lucida.app.images.imaging import (
-    CHANNELS,
-    size_text,
-    with_magnification,
-    with_resolution,
-)
+from lucida.app.images.imaging import CHANNELS, size_text, with_magnification, with_resolution
 from lucida.app.images.placement import magnification_text, step_from
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import MAGNIFICATIONS, RESOLUTIONS, SAMPLES

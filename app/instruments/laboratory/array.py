@@ -7,15 +7,7 @@ import numpy as np
 from lucida.app.instruments.outside.figure import Color, Figure
 
 from .page import Page
-from .sheet import (
-    BLACK,
-    Point,
-    Sheet,
-    between,
-    mixed,
-    reached,
-    rectangle,
-)
+from .sheet import BLACK, Point, Sheet, between, mixed, reached, rectangle
 
 ROWS, COLUMNS = 3, 4
 LIT, ORANGE = (1, 2), (1.0, 0.6, 0.0)  # row and column from 0

@@ -10,18 +10,7 @@ from lucida.app.instruments.outside.figure import Figure
 from lucida.renderer.camera.checks import Floats
 
 from .page import Page
-from .sheet import (
-    BLACK,
-    WHITE,
-    YELLOW,
-    Sheet,
-    between,
-    circle,
-    mixed,
-    reached,
-    rectangle,
-    rounded,
-)
+from .sheet import BLACK, WHITE, YELLOW, Sheet, between, circle, mixed, reached, rectangle, rounded
 
 ROOM, STEP = (15.5, 9.6), (16.0, 12.0)  # of each drawing, and from one to the next
 FINE = 96  # points of outlines that turn into each other

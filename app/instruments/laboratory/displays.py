@@ -17,16 +17,7 @@ from lucida.app.instruments.outside.figure import Color, Figure
 from lucida.renderer.images.display import to_srgb8
 
 from .page import Page
-from .sheet import (
-    LIGHTS,
-    WALL,
-    YELLOW,
-    Sheet,
-    mixed,
-    reached,
-    rectangle,
-    rounded,
-)
+from .sheet import LIGHTS, WALL, YELLOW, Sheet, mixed, reached, rectangle, rounded
 
 Floats = NDArray[np.float32]
 Place = tuple[float, float, float, float, float]  # middle x, y; half the width, height; rounding

@@ -13,16 +13,7 @@ from lucida.renderer.images.display import Bytes, encode_srgb, to_srgb8
 
 from .kinds import COLOR, FLOAT, KINDS, Kind
 from .page import Page, is_wide
-from .sheet import (
-    BLACK,
-    LIGHTS,
-    YELLOW,
-    Point,
-    Sheet,
-    circle,
-    reached,
-    rectangle,
-)
+from .sheet import BLACK, LIGHTS, YELLOW, Point, Sheet, circle, reached, rectangle
 from .stored import kept
 
 # The shape of images: width and height. Two side by side are square.

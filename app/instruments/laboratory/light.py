@@ -10,16 +10,7 @@ from lucida.app.instruments.outside.figure import Color, Figure
 from lucida.renderer.camera.checks import Floats
 
 from .page import Page
-from .sheet import (
-    BLACK,
-    LIGHTS,
-    WALL,
-    between,
-    circle,
-    mixed,
-    reached,
-    rectangle,
-)
+from .sheet import BLACK, LIGHTS, WALL, between, circle, mixed, reached, rectangle
 
 # Where red, green and blue stand when they are moved apart by 1: an upright triangle.
 APART = ((0.0, -1.0), (-0.866, 0.5), (0.866, 0.5))

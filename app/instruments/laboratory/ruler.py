@@ -8,15 +8,7 @@ from lucida.app.instruments.outside.figure import Color, Figure
 from lucida.renderer.camera.checks import Floats
 
 from .page import Page
-from .sheet import (
-    BLACK,
-    YELLOW,
-    Point,
-    Sheet,
-    between,
-    mixed,
-    reached,
-)
+from .sheet import BLACK, YELLOW, Point, Sheet, between, mixed, reached
 
 COUNT = 10  # pixels in a row, and in a column
 PIXEL = (3, 7)  # row and column, from 1

@@ -11,13 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from imgui_bundle import ImVec2, imgui
 
-from lucida.app.instruments.outside.gizmo import (
-    Handle,
-    escaped,
-    gizmo,
-    let_go,
-    manipulate,
-)
+from lucida.app.instruments.outside.gizmo import Handle, escaped, gizmo, let_go, manipulate
 from lucida.app.instruments.outside.tint import AXES, HELD
 from lucida.app.ui import palettes, theme
 from lucida.app.ui.guest import ShownIn

@@ -39,14 +39,7 @@ from .choosing import chosen, rows_of
 from .editing import with_scene
 from .material_fields import material_lines
 from .outliner import SHOWN
-from .value_fields import (
-    Edits,
-    color_line,
-    light_lines,
-    number_line,
-    vector_line,
-    whole_line,
-)
+from .value_fields import Edits, color_line, light_lines, number_line, vector_line, whole_line
 
 COMMON = {*ObjectTable.__struct_fields__, *LightTable.__struct_fields__}
 PLACED = {"translate", "rotate_deg", "scale", "center", "position", "direction", "file"}

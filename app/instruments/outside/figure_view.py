@@ -16,12 +16,7 @@ from lucida.app.ui.host import Host
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.images.display import Bytes, to_srgb8
 
-from .figure import (
-    Depths,
-    Figure,
-    figure_parts,
-    with_picture,
-)
+from .figure import Depths, Figure, figure_parts, with_picture
 from .ground import SHIFTS
 from .growing import grown_diagram
 from .looking import nearest, scope_of

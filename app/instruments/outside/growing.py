@@ -23,17 +23,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats, three
 
 from .camera_diagram import Content, diagram, plane_items
-from .diagram import (
-    Arrow,
-    Dot,
-    Item,
-    Label,
-    Role,
-    Segments,
-    line,
-    named_dot,
-    term,
-)
+from .diagram import Arrow, Dot, Item, Label, Role, Segments, line, named_dot, term
 from .frustum import image_point, on_ray
 from .pixel_drawing import pixel_square
 from .simple_camera import simple_ray

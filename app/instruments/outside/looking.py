@@ -25,11 +25,7 @@ from lucida.renderer.camera.navigation import depth_of, orbited
 from lucida.renderer.system.memo import Memo, same
 
 from .diagram import RayEnd
-from .extent import (
-    around,
-    arrow_length,
-    outside_camera,
-)
+from .extent import around, arrow_length, outside_camera
 from .frustum import bundle_pixels
 from .mouse import Area, Scope
 from .screen import NEAREST, OutsideScreen

@@ -13,17 +13,7 @@ from lucida.app.ui.uploads import Uploads
 from lucida.renderer.camera.checks import Floats
 
 from .diagram import runs
-from .figure import (
-    RIM,
-    WHITE,
-    Color,
-    Figure,
-    Label,
-    Line,
-    Picture,
-    Polygon,
-    dashes,
-)
+from .figure import RIM, WHITE, Color, Figure, Label, Line, Picture, Polygon, dashes
 
 Point = tuple[float, float]
 Box = tuple[Point, Point]  # upper left and lower right corner

@@ -14,17 +14,7 @@ import numpy as np
 
 from lucida.renderer.camera.checks import Floats
 
-from .diagram import (
-    Arrow,
-    Dot,
-    Eye,
-    Face,
-    Item,
-    Label,
-    Role,
-    Segments,
-    polyline,
-)
+from .diagram import Arrow, Dot, Eye, Face, Item, Label, Role, Segments, polyline
 from .screen import OutsideScreen
 
 CIRCLE = 28  # corners of what is round

@@ -14,17 +14,7 @@ from lucida.app.ui.explaining.notation import number
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 
-from .diagram import (
-    Dot,
-    Item,
-    Label,
-    Role,
-    Segments,
-    line,
-    named_dot,
-    shares,
-    term,
-)
+from .diagram import Dot, Item, Label, Role, Segments, line, named_dot, shares, term
 from .frustum import on_ray, plane_parameter, point_at
 
 BEFORE, LAST = -1.2, 4.0  # the least and the largest t that is drawn of a line

@@ -12,17 +12,7 @@ import numpy as np
 
 from lucida.renderer.camera.checks import Floats
 
-from .diagram import (
-    Dot,
-    Face,
-    Item,
-    Label,
-    RayEnd,
-    Role,
-    Segments,
-    line,
-    polyline,
-)
+from .diagram import Dot, Face, Item, Label, RayEnd, Role, Segments, line, polyline
 
 SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
 ROLE: Role = "other"

@@ -10,18 +10,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.checks import Floats
 from lucida.renderer.camera.image_plane import Size
 
-from .diagram import (
-    Dot,
-    Eye,
-    Item,
-    Label,
-    Role,
-    Segments,
-    named_arrow,
-    polyline,
-    shares,
-    term,
-)
+from .diagram import Dot, Eye, Item, Label, Role, Segments, named_arrow, polyline, shares, term
 from .frustum import image_point, plane_corners
 from .pixel_drawing import pixel_square
 

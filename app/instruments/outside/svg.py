@@ -18,19 +18,7 @@ from PIL import Image
 from lucida.renderer.images.display import Bytes
 
 from .diagram import runs
-from .figure import (
-    DASHES,
-    RIM,
-    WHITE,
-    Color,
-    Figure,
-    Inset,
-    Label,
-    Line,
-    Part,
-    Picture,
-    Polygon,
-)
+from .figure import DASHES, RIM, WHITE, Color, Figure, Inset, Label, Line, Part, Picture, Polygon
 
 FONTS = "Roboto, Helvetica, Arial, narrowed, sans-serif"  # narrowed: in lecture.css
 MONO = "Roboto Mono, Consolas, Menlo, monospace"

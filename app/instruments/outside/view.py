@@ -48,14 +48,7 @@ from .gizmo import Gizmo
 from .ground import Ground, GroundPicture
 from .growing import grown_diagram
 from .hosted import Hosted
-from .looking import (
-    Scopes,
-    camera_for_all,
-    nearest,
-    ray_ends,
-    units_px,
-    widest_px,
-)
+from .looking import Scopes, camera_for_all, nearest, ray_ends, units_px, widest_px
 from .mouse import Area, Mouse, Scope
 from .paint import ground_of, layers
 from .placing import LabelPlacer

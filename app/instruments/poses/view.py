@@ -26,13 +26,7 @@ from lucida.renderer.system.errors import one_line
 from lucida.renderer.system.memo import Memo
 
 from . import panel
-from .model import (
-    PoseSet,
-    cloud,
-    frusta,
-    with_set,
-    with_set_framed,
-)
+from .model import PoseSet, cloud, frusta, with_set, with_set_framed
 from .panel import PoseWish
 from .photographs import Photograph, Photographs, photo_path
 from .reading import PosesReader

@@ -21,17 +21,7 @@ from lucida.renderer.system.errors import LucidaError
 from lucida.renderer.trace import pure_python as scalar
 
 from .crossings import NOTHING, Crossings, Index
-from .reading import (
-    BEHIND,
-    FAR,
-    HIDDEN,
-    NEAR,
-    SEEN,
-    Bounce,
-    Crossing,
-    Meeting,
-    Reading,
-)
+from .reading import BEHIND, FAR, HIDDEN, NEAR, SEEN, Bounce, Crossing, Meeting, Reading
 from .shading import LitTest, Shading, SurfaceHit, hit_at, shade
 
 

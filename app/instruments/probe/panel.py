@@ -26,10 +26,7 @@ from lucida.renderer.camera.pixels import Indexing
 from lucida.renderer.images.display import encode_srgb
 from lucida.renderer.scene.model import Color
 
-from .copying import (
-    as_latex,
-    section_lines,
-)
+from .copying import as_latex, section_lines
 from .reading import OUTSIDE, SEEN, Meeting, Reading
 
 # Lines whose value is a colour, shown next to them.

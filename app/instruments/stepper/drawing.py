@@ -13,12 +13,7 @@ from imgui_bundle import ImVec2, imgui
 
 from lucida.app.state.app_state import AppState
 from lucida.app.ui import theme
-from lucida.app.ui.canvas import (
-    Marks,
-    canvas_unit,
-    color_picture,
-    draw_canvas,
-)
+from lucida.app.ui.canvas import Marks, canvas_unit, color_picture, draw_canvas
 from lucida.app.ui.explaining.breaking import narrowed
 from lucida.app.ui.lettering import lettering
 from lucida.app.ui.theme import Fonts

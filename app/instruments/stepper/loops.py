@@ -9,15 +9,7 @@ and a size (width, height), and return the same Canvas.
 from __future__ import annotations
 
 from .loop_parts import MISS, Canvas, color_at, intersect, viewing_ray
-from .raster_parts import (
-    box_around,
-    edge,
-    prepared,
-    project,
-    shade,
-    t_of,
-    triangles,
-)
+from .raster_parts import box_around, edge, prepared, project, shade, t_of, triangles
 
 
 def rasterization(scene, camera, size):

@@ -20,15 +20,7 @@ from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.scene.model import Color
 from lucida.renderer.scene.sampling import are_passed
 
-from .loop_parts import (
-    Canvas,
-    Model,
-    Object,
-    color_at,
-    intersect,
-    light_at,
-    viewing_ray,
-)
+from .loop_parts import Canvas, Model, Object, color_at, intersect, light_at, viewing_ray
 
 FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on
 ROUNDING_PX = 1e-6  # a centre that lies on the edge counts

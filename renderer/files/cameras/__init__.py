@@ -4,14 +4,7 @@
 R and t are in renderer/camera/intrinsics.py.
 """
 
-from .formats import (
-    FORMATS,
-    format_named,
-    read_cameras,
-    read_chosen,
-    without_choice,
-    written,
-)
+from .formats import FORMATS, format_named, read_cameras, read_chosen, without_choice, written
 from .given import Options
 from .posed import CameraSet, PosedCamera, one_of
 

@@ -24,13 +24,7 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.system.errors import LucidaError
 
 from .distortion import FISHEYE_NAMES, lens_of
-from .entries import (
-    ORIGIN_TOLD,
-    affine,
-    notes_on,
-    number_of,
-    size_of,
-)
+from .entries import ORIGIN_TOLD, affine, notes_on, number_of, size_of
 from .given import Given, Options
 from .posed import CameraSet, PosedCamera
 

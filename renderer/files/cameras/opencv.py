@@ -28,21 +28,8 @@ from lucida.renderer.system.errors import LucidaError
 from . import entries
 from .entries import ORIGIN_TOLD, affine, flat, number_of, plain
 from .given import Given, Options
-from .notations import (
-    MOST_BYTES,
-    Table,
-    assigned,
-    is_ini,
-    table_in,
-    to_yaml,
-)
-from .opencv_keys import (
-    Keys,
-    are_cameras,
-    cameras_in,
-    lens_in,
-    lens_table,
-)
+from .notations import MOST_BYTES, Table, assigned, is_ini, table_in, to_yaml
+from .opencv_keys import Keys, are_cameras, cameras_in, lens_in, lens_table
 from .posed import CameraSet, PosedCamera, in_image, one_of
 from .rigid import rigid
 from .rotations import from_vector

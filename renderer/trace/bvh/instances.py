@@ -21,14 +21,7 @@ from lucida.renderer.scene.flat import DIFFUSE_SHININESS, FlatScene
 from lucida.renderer.scene.model import Mesh, Scene
 from lucida.renderer.trace.threads.thread_pool import Team
 
-from .bvh16 import (
-    FIRST_LEAF,
-    WIDTH,
-    WideTree,
-    aligned,
-    tree_of_boxes,
-    tree_of_mesh,
-)
+from .bvh16 import FIRST_LEAF, WIDTH, WideTree, aligned, tree_of_boxes, tree_of_mesh
 
 # Bits of an instance. Its vertices have normals or colours; its transform changes angles, or is the
 # identity; its material has a texture, is single-sided, or has a cutout.

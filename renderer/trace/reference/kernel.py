@@ -11,15 +11,7 @@ from lucida.renderer.trace.arguments.image import BLOCK
 from lucida.renderer.trace.compile.compiled import inlined, kernel
 from lucida.renderer.trace.threads.atomic import count_done, is_cancelled, take_next
 
-from .shade import (
-    color_at,
-    corners_of,
-    normals_at,
-    object_of,
-    point_on,
-    rgb,
-    turned,
-)
+from .shade import color_at, corners_of, normals_at, object_of, point_on, rgb, turned
 from .traverse import closest_hit
 from .vectors import cross, dot, minus, row
 

@@ -21,25 +21,8 @@ from lucida.renderer.images.shared_numbers import (
 from lucida.renderer.scene import flat
 from lucida.renderer.trace.compile.compiled import inlined
 
-from .texture import (
-    BASE,
-    MORE,
-    light_at_place,
-    opacity_at_place,
-    place_at,
-)
-from .vectors import (
-    blend,
-    cross,
-    dot,
-    each_times,
-    length,
-    minus,
-    normalized,
-    plus,
-    row,
-    times,
-)
+from .texture import BASE, MORE, light_at_place, opacity_at_place, place_at
+from .vectors import blend, cross, dot, each_times, length, minus, normalized, plus, row, times
 
 # Rows of a material, of a type that row() is compiled for.
 DIFFUSE_SHININESS, SPECULAR_CHECKERED, CHECKER_DIFFUSE = (

@@ -9,13 +9,7 @@ import numpy as np
 from lucida.renderer.scene.flat import FlatScene
 from lucida.renderer.trace.compile.compiled import inlined
 
-from .intersect import (
-    box_ray,
-    enter_box,
-    hit_sphere,
-    hit_triangle,
-    sheared_ray,
-)
+from .intersect import box_ray, enter_box, hit_sphere, hit_triangle, sheared_ray
 from .shade import passes
 from .vectors import minus
 

@@ -26,16 +26,7 @@ from lucida.renderer.trace.compile.emit import choose, emitted, greater, i64, le
 from lucida.renderer.trace.vector.lanes import LANES, bits, fma, i32_of, splat, vmax, vmin
 from lucida.renderer.trace.vector.memory import load
 
-from .tile import (
-    AHEAD,
-    BEHIND,
-    BOTTOM,
-    LEFT,
-    RIGHT,
-    TILE,
-    TOP,
-    largest_of_plane,
-)
+from .tile import AHEAD, BEHIND, BOTTOM, LEFT, RIGHT, TILE, TOP, largest_of_plane
 
 # A footprint: bits 0 to 15 are the tile's squares. The first and last column and the first and last
 # row of its pixels in the tile follow, with four bits each.

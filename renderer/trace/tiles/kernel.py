@@ -16,12 +16,7 @@ from lucida.renderer.trace.threads.atomic import count_done, is_cancelled, take_
 from lucida.renderer.trace.vector.lanes import LANES
 from lucida.renderer.trace.vector.memory import pointer, pointers, shifted
 
-from .lens_frame import (
-    frames_of,
-    room_before_scratch,
-    set_frame,
-    tile_view,
-)
+from .lens_frame import frames_of, room_before_scratch, set_frame, tile_view
 from .tile import FLOATS, INTS, TILE, clear_tile, new_tile, scratch_of
 from .view import ROWS
 from .walk import walk_world

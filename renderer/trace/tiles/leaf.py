@@ -23,13 +23,7 @@ from .by_pixels import FEW_PIXELS, cover_pixels, sample_pixels
 from .by_squares import cover_tile, rasterize_squares
 from .footprint import pixels_of
 from .tile import from_first_pixel
-from .triangle import (
-    Triangles,
-    camera_corners,
-    edge_function,
-    homogeneous,
-    triangle_keys,
-)
+from .triangle import Triangles, camera_corners, edge_function, homogeneous, triangle_keys
 
 SOME_PIXELS = 160  # in a larger footprint, most of a leaf's triangles are not small
 

@@ -13,11 +13,7 @@ from lucida.renderer.images.shared_numbers import (
     NEAREST_LIGHT,
     SHORTEST_HALF,
 )
-from lucida.renderer.scene.flat import (
-    CHECKER_DIFFUSE,
-    DIFFUSE_SHININESS,
-    SPECULAR_CHECKERED,
-)
+from lucida.renderer.scene.flat import CHECKER_DIFFUSE, DIFFUSE_SHININESS, SPECULAR_CHECKERED
 from lucida.renderer.trace.compile.compiled import inlined
 from lucida.renderer.trace.compile.emit import choose, emitted, f32
 from lucida.renderer.trace.reference.vectors import each_times, minus, times, triple
@@ -45,13 +41,7 @@ from lucida.renderer.trace.vector.math import (
 )
 from lucida.renderer.trace.vector.memory import load
 
-from .effects import (
-    brightest,
-    lit_pixels,
-    reflectance,
-    reflected_rays,
-    trace_square,
-)
+from .effects import brightest, lit_pixels, reflectance, reflected_rays, trace_square
 from .surface import find_surfaces, points_on
 from .texture import times_gloss
 from .view import ACROSS, DOWN, SHARED, VARYING

@@ -28,14 +28,7 @@ from lucida.renderer.trace.vector.lanes import (
 from lucida.renderer.trace.vector.math import fma_lanes, normalized_lanes, splat_lanes
 from lucida.renderer.trace.vector.memory import load
 
-from .tile import (
-    FIRST_SPHERE,
-    SQUARE,
-    SQUARES,
-    depth_range,
-    set_hits,
-    square_points,
-)
+from .tile import FIRST_SPHERE, SQUARE, SQUARES, depth_range, set_hits, square_points
 from .view import ACROSS, DOWN, SHARED, VARYING
 
 _CHORD = np.float32(5e-7)  # relative; above the rounding errors of z and the chord's middle

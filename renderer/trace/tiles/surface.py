@@ -32,23 +32,9 @@ from lucida.renderer.trace.vector.math import (
 )
 from lucida.renderer.trace.vector.memory import load
 
-from .smooth import (
-    agrees,
-    barycentrics,
-    barycentrics_at,
-    blended,
-    have_normals,
-    vertices_of,
-)
+from .smooth import agrees, barycentrics, barycentrics_at, blended, have_normals, vertices_of
 from .sphere import sphere_normal, sphere_normal_at
-from .texture import (
-    PacketTextures,
-    between_vertices,
-    glossy,
-    nowhere,
-    on_sphere,
-    textured,
-)
+from .texture import PacketTextures, between_vertices, glossy, nowhere, on_sphere, textured
 from .tile import FIRST_SPHERE, NOTHING, coordinates
 from .view import ACROSS, DOWN, SHARED, VARYING
 

@@ -18,12 +18,7 @@ from lucida.renderer.trace.vector.gather import prefetch
 from lucida.renderer.trace.vector.lanes import LANES, bits, lowest_bit
 from lucida.renderer.trace.vector.memory import store
 
-from .footprint import (
-    ANY_DEPTH,
-    WHOLE_TILE,
-    children_in_tile,
-    open_squares,
-)
+from .footprint import ANY_DEPTH, WHOLE_TILE, children_in_tile, open_squares
 from .leaf import rasterize_leaf
 from .lens_frame import turn_rows
 from .sphere import intersect_sphere
