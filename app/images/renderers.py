@@ -48,8 +48,8 @@ class Renderers(ImageSize):
     that follows from the time of the last ones. The raster image is drawn when the ray image of its
     request is ready, or alone if that is hidden, or the tracer is still preparing.
 
-    wake: called on other threads when there is a new result. smooth: the tracer
-    yields to the window's frames, and images in motion may be coarse.
+    wake: called on other threads when there is a new result. smooth: the tracer yields to the
+    window's frames, and images in motion may be coarse.
     """
 
     def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:

@@ -112,8 +112,8 @@ class ImageTextures:
         look: Look,
         name: str = PANE,
     ) -> Picture | None:
-        """Return the visible part of the last ray image in a window; None if its camera
-        differs from the raster image's, or if uploading it failed, see ray_error.
+        """Return the visible part of the last ray image in a window; None if its camera differs
+        from the raster image's, or if uploading it failed, see ray_error.
         """
         image = self._ray
         if image is None or self._ray_failures >= ATTEMPTS:

@@ -50,8 +50,8 @@ class PieceSize:
 class Piece:
     """A word, several words, or a formula.
 
-    size: of its text. style: "text", "bold", "vector" (a single bold word, which may be a
-    vector's name), "italic", "code" or "math" (LaTeX). display: a formula on its own line.
+    size: of its text. style: "text", "bold", "vector" (a single bold word, which may be a vector's
+    name), "italic", "code" or "math" (LaTeX). display: a formula on its own line.
     """
 
     text: str

@@ -5,8 +5,8 @@ where the exact image jumps may therefore show either side of it. Both renderers
 so the same holds within float32's error of such a line. Everywhere else, the images must agree.
 
 Only lines of the two primitives that the images show at the pixel count. Arithmetic is float64.
-Each line is the zero of a smooth function of the position in the image, so that its distance
-in pixels is the function's value over its slope:
+Each line is the zero of a smooth function of the position in the image, so that its distance in
+pixels is the function's value over its slope:
 
     edge     an edge of a triangle, the outline of a sphere; where the two surfaces meet; a surface
              so oblique or small that its depth, smooth normal or vertex colours differ as much

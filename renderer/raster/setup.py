@@ -9,10 +9,10 @@ affine in the point. Pixel centres are exact in float32 in these coordinates.
 
 float32 has 7 digits, so nothing large may cancel on the GPU. Each object therefore has an anchor,
 the point of its bounding box nearest to the eye. Vertices are in their object's space, and only
-their difference from the anchor is used. Lights, which belong to no object, are relative
-to the scene's point nearest to the eye (near_point). A triangle's plane intersects a ray at t
-(parallel) or 1/t (perspective) that is affine in x and y: the three coefficients are computed here,
-where N.(a - eye) may cancel without harm.
+their difference from the anchor is used. Lights, which belong to no object, are relative to the
+scene's point nearest to the eye (near_point). A triangle's plane intersects a ray at t (parallel)
+or 1/t (perspective) that is affine in x and y: the three coefficients are computed here, where N.(a
+- eye) may cancel without harm.
 """
 
 from __future__ import annotations

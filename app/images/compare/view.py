@@ -1,7 +1,7 @@
 """The compare view: both images in one place, as a wipe or a difference.
 
-A difference is shown only between two full images of the present state. The mouse works
-as in ../pair/view.py.
+A difference is shown only between two full images of the present state. The mouse works as in
+../pair/view.py.
 """
 
 from __future__ import annotations
@@ -240,8 +240,8 @@ def _made(comparison: Comparison, channel: str, gain: float) -> tuple[Comparison
 
 
 def _label(host: Host, screen: Screen, text: str, right: bool, end: float) -> None:
-    """Draw an image's name in its upper left or right corner. Draw nothing without
-    space for it. end: the divider.
+    """Draw an image's name in its upper left or right corner. Draw nothing without space for it.
+    end: the divider.
     """
     low, high = screen.visible
     draw = imgui.get_window_draw_list()

@@ -6,9 +6,9 @@ over a node reads them sequentially.
 
 The low sides are negated, so that the box around two boxes is one maximum of vectors. Bounds are a
 vector: the first half is the box in a record's layout, and the second half bounds the centres in
-the same way. Bins keep only boxes, in half vectors; the bounds of both halves of a node
-are computed while its records are partitioned. Centres are doubled throughout (low + high), to
-avoid halving.
+the same way. Bins keep only boxes, in half vectors; the bounds of both halves of a node are
+computed while its records are partitioned. Centres are doubled throughout (low + high), to avoid
+halving.
 
 Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007.
 """

@@ -113,8 +113,8 @@ def _not_grazing(normal, direction):
 
 @inlined
 def albedo_at(scene, number, point, geometric, primitive, b1, b2):
-    """Return the diffuse reflectance of object `number`: the material's times its texture's
-    colour, or its checker's, times the vertices' colours."""
+    """Return the diffuse reflectance of object `number`: the material's times its texture's colour,
+    or its checker's, times the vertices' colours."""
     material = scene.materials[number]
     albedo = row(material, DIFFUSE_SHININESS)
     pattern = material[SPECULAR_CHECKERED, 3]
@@ -154,9 +154,7 @@ def _place(scene, number, point, primitive, b1, b2):
 
 @inlined
 def passes(scene, direction, triangle, b1, b2):
-    """Return True if a ray passes a triangle that it hits: at an invisible back, or through a
-    hole.
-    """
+    """Return True if a ray passes a triangle that it hits: at an invisible back, or through a hole."""
     number = scene.face_object[triangle]
     if scene.single_sided[number]:
         i, j, k = corners_of(scene.faces, triangle)

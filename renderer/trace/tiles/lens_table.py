@@ -3,8 +3,8 @@
 A lens bends rays, but all of them start at the eye. Within a tile, they differ little from the rays
 of the tile's frame, a pinhole camera that looks at the tile's middle and whose image is fitted to
 the tile's pixels. Pixels are near a grid in it. Edge functions are evaluated at their exact places,
-which are stored, so the result is exact. A tile whose rays spread too far for one
-frame (in a small panorama) is divided among the six faces of a cube.
+which are stored, so the result is exact. A tile whose rays spread too far for one frame (in a small
+panorama) is divided among the six faces of a cube.
 
 The table does not depend on eye and basis, so it is made once for a lens and a size.
 """

@@ -37,8 +37,8 @@ def pointer(array):
     """Return the address of a contiguous array, which is indexed like the flattened array.
 
     Kernels pass arrays as pointers, because an array is seven numbers and a reference count, which
-    make functions slow to compile and to run. numba frees an array made in the
-    kernel after the last use of its name, so take its pointer in the loop that uses it.
+    make functions slow to compile and to run. numba frees an array made in the kernel after the
+    last use of its name, so take its pointer in the loop that uses it.
     """
     return contiguous(array.kind), lambda builder: first_address(builder, array)
 
