@@ -314,7 +314,9 @@ class Camera:
 
     @property
     def camera_from_world(self) -> Floats:
-        """The inverse of world_from_camera, read-only; no transpose, since the basis may be skewed."""
+        """The inverse of world_from_camera, read-only; no transpose, since the basis may be
+        skewed.
+        """
         return inverse(self.eye, self.u, self.v, self.w)
 
     def image_from_world(self, size: Size) -> Floats:

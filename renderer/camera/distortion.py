@@ -49,7 +49,9 @@ class Distortion:
         return np.where(seen, a, np.nan), np.where(seen, b, np.nan)
 
     def inverse(self, a: Floats, b: Floats) -> Point:
-        """Invert the radial part in one variable, and then the whole map by Newton's method in two."""
+        """Invert the radial part in one variable, and then the whole map by Newton's method in
+        two.
+        """
         target = np.hypot(a, b)
         radius = self._inverse_radius(target)
         if self.is_radial:

@@ -80,7 +80,9 @@ class Faces(NamedTuple):
         return (height - 1) / 2 - position[:, 1], position[:, 0] + (width - 1) / 2
 
     def texel(self, number: int, i: NDArray[Any], j: NDArray[Any]) -> tuple[Floats, Floats]:
-        """Return rows and columns of the texels that pixels (i, j) look up on it, as in lens.glsl."""
+        """Return rows and columns of the texels that pixels (i, j) look up on it, as in
+        lens.glsl.
+        """
         (width, height), position = self.faces[number].size, self.positions[i, j]
         row = np.floor(np.float32(height / 2) - position[:, 1])
         column = np.floor(np.float32(width / 2) + position[:, 0])

@@ -20,7 +20,9 @@ LISTED = 8  # files that an error names
 
 
 class OutsideError(LucidaError):
-    """A file names others outside its folder, to which the user has not agreed. files: their paths."""
+    """A file names others outside its folder, to which the user has not agreed.
+    files: their paths.
+    """
 
     def __init__(self, source: str, files: tuple[Path, ...]) -> None:
         shown = ", ".join(map(str, files[:LISTED])) + ", ..." * (len(files) > LISTED)

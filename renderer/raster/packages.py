@@ -15,7 +15,7 @@ def installing(packages: str) -> str:
 
 SYSTEMS = ("debian", "fedora", "arch", "macos", "windows", "other")
 
-_GONE = "Mesa 25.1 and later have no OSMesa: nothing to install, EGL takes its place"
+_GONE = "Mesa 25.1 and later have no OSMesa: EGL takes its place"
 _DRIVER = "update the graphics driver (OpenGL 3.3)"
 
 _REMEDIES = {
@@ -27,7 +27,7 @@ _REMEDIES = {
     },
     "default": {"other": _DRIVER},
     "osmesa": {
-        "debian": "apt-get install libosmesa6, where the release has it; else EGL takes its place",
+        "debian": "apt-get install libosmesa6, if the release has it; otherwise EGL takes its place",
         "fedora": "dnf install mesa-libOSMesa (in newer releases: mesa-compat-libOSMesa)",
         "other": _GONE,
     },
@@ -62,7 +62,7 @@ def remedy(part: str, system: str = "") -> str:
 
 
 def this_system() -> str:
-    """Return one of SYSTEMS; Ubuntu, Mint and others count as the system they are derived from."""
+    """Return one of SYSTEMS; Ubuntu, Mint and others count as the system from which they are derived."""
     if sys.platform in ("darwin", "win32"):
         return {"darwin": "macos", "win32": "windows"}[sys.platform]
     import platform

@@ -50,7 +50,9 @@ class _HandleDrag:
 
 
 class Handles:
-    """The handles of all views. problem: the reason that the dragged item does not follow, or ""."""
+    """The handles of all views.
+    problem: the reason that the dragged item does not follow, or "".
+    """
 
     def __init__(self) -> None:
         self.problem = ""

@@ -112,7 +112,9 @@ def outer(points: Floats, layers: Floats, size: Size) -> Floats:
 
 
 def _layers(points: Floats, layers: Floats, size: Size) -> Floats:
-    """Return the number of layers at each pixel, (height, width + 1), one column beyond the image."""
+    """Return the number of layers at each pixel, (height, width + 1), one column beyond the
+    image.
+    """
     width, height = size
     (x, y), (x_end, y_end) = points.transpose(1, 2, 0)
     low, high = np.clip(np.ceil(np.sort([y, y_end], axis=0) - 0.5), 0, height).astype(int)

@@ -202,7 +202,9 @@ def _row(meeting: Meeting, fonts: Fonts) -> None:
 
 
 def color_row(shown: Shown | None, fonts: Fonts) -> None:
-    """Draw a pixel's colour as displayed, and its red, green and blue. shown: None without a pixel."""
+    """Draw a pixel's colour as displayed, and its red, green and blue.
+    shown: None without a pixel.
+    """
     side = imgui.get_text_line_height()
     _swatch(shown[1] if shown is not None else (0, 0, 0), side)
     with lettering(fonts.mono):

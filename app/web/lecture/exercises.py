@@ -201,7 +201,9 @@ def _fields(number: str, task: TypedExercise) -> str:
 
 
 def _name(text: str) -> str:
-    """Return an attribute that names a button of formulas, which browsers cannot name themselves."""
+    """Return an attribute that names a button of formulas, which browsers cannot name
+    themselves.
+    """
     blocks = parse(text)
     if not all(isinstance(block, Paragraph) for block in blocks):
         return ""

@@ -34,7 +34,7 @@ def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> 
     """Write a scene as glTF (.glb), seen by a camera in an image of `size`, (width, height).
 
     Returns a line for each thing that glTF cannot hold. Raises LucidaError if glTF cannot hold the
-    camera, or the file cannot be written. Stops if the work is cancelled
+    camera, or the file cannot be written. The export stops if it is cancelled
     (renderer/system/cancelling.py).
     """
     target = check_export_path(path)

@@ -36,7 +36,9 @@ class KernelView(NamedTuple):
 
     @classmethod
     def of(cls, camera: Camera, size: Size | None = None) -> KernelView:
-        """Return the numbers of a camera, with the directions if it has a lens and a size is given."""
+        """Return the numbers of a camera, with the directions if it has a lens and a size is
+        given.
+        """
         scale = 1.0 if camera.is_parallel else camera.distance
         x, y, z = camera.w
         t_min, t_max = camera.t_range

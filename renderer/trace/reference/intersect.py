@@ -108,7 +108,7 @@ def hit_triangle(shapes, i, ray):
     ox, oy, oz = ray.origin
     sx, sy, sz = ray.shear
 
-    # Corners relative to the origin, sheared.
+    # Shear the corners relative to the origin.
     az, bz, cz = shapes[i, z] - oz, shapes[i, 3 + z] - oz, shapes[i, 6 + z] - oz
     ax, ay = (shapes[i, x] - ox) - sx * az, (shapes[i, y] - oy) - sy * az
     bx, by = (shapes[i, 3 + x] - ox) - sx * bz, (shapes[i, 3 + y] - oy) - sy * bz
@@ -141,7 +141,7 @@ def hit_sphere(shapes, i, origin, direction, t_min, t_max):
     f = minus(origin, row(shapes, i))
     a = dot(direction, direction)
     b = -dot(f, direction)
-    # The ray's point nearest to the centre shows if it passes through.
+    # The ray passes through the sphere if its point nearest to the centre is inside.
     nearest = plus(f, times(b / a, direction))
     left_over = radius * radius - dot(nearest, nearest)
     if left_over < 0.0:

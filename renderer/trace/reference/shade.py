@@ -154,7 +154,9 @@ def _place(scene, number, point, primitive, b1, b2):
 
 @inlined
 def passes(scene, direction, triangle, b1, b2):
-    """Return True if a ray passes a triangle that it hits: at an invisible back, or through a hole."""
+    """Return True if a ray passes a triangle that it hits: at an invisible back, or through a
+    hole.
+    """
     number = scene.face_object[triangle]
     if scene.single_sided[number]:
         i, j, k = corners_of(scene.faces, triangle)

@@ -204,7 +204,9 @@ def _rows(
 
 
 def _backs(rows: NDArray[np.float64], instances: Instances) -> NDArray[np.float32]:
-    """Return PacketView.back. The instance's own space decides the front, even if it is mirrored."""
+    """Return PacketView.back.
+    The instance's own space decides the front, even if it is mirrored.
+    """
     is_single = np.append(instances.world.attributes & IS_SINGLE_SIDED > 0, False)
     linear = rows[:, ROW_X:EXTENT].reshape(-1, 3, 4)[..., :3]
     return (is_single * np.sign(np.linalg.det(linear))).astype(np.float32)
