@@ -1,7 +1,7 @@
 """A sandbox for the files that a scene names, and checks for files outside its folder.
 
 A scene file may name a model anywhere: "../m.obj", "/home/m.obj", or a link that leads there.
-Reading a file from somebody else stays inside its folder unless the user has agreed.
+Reading a file of another author stays inside its folder unless the user has agreed.
 """
 
 from __future__ import annotations

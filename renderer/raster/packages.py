@@ -27,7 +27,7 @@ _REMEDIES = {
     },
     "default": {"other": _DRIVER},
     "osmesa": {
-        "debian": "apt-get install libosmesa6, if the release has it; otherwise EGL takes its place",
+        "debian": "apt-get install libosmesa6, if the release has it; or else use EGL",
         "fedora": "dnf install mesa-libOSMesa (in newer releases: mesa-compat-libOSMesa)",
         "other": _GONE,
     },
@@ -62,7 +62,7 @@ def remedy(part: str, system: str = "") -> str:
 
 
 def this_system() -> str:
-    """Return one of SYSTEMS; Ubuntu, Mint and others count as the system from which they are derived."""
+    """Return one of SYSTEMS; Ubuntu, Mint and others count as the system they derive from."""
     if sys.platform in ("darwin", "win32"):
         return {"darwin": "macos", "win32": "windows"}[sys.platform]
     import platform

@@ -12,12 +12,12 @@ from lucida.app.state.options.shared import Pixel
 from lucida.renderer.compare.raster_and_ray import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 
 MODES: tuple[tuple[CompareMode, str, str], ...] = (
-    ("wipe", "Wipe", "The raster image left of the divider, the ray image right of it."),
+    ("wipe", "Wipe", "Shows the raster image left of the divider, and the ray image right of it."),
     (
         "absolute",
         "Difference",
-        "How much the two images differ: black is no difference. Colours are compared as display "
-        "values (sRGB, exposure 0), depths relative to the ray image's.",
+        "Shows how much the images differ; black is no difference. Colours are compared as display "
+        "values (sRGB, exposure 0), and depths relative to the ray image's.",
     ),
 )
 MARKED_MAGNIFICATION = 32.0  # from this magnification on, pixels show their values

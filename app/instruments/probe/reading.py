@@ -80,7 +80,7 @@ class Reading:
     """Everything that the probe knows about a pixel.
 
     x, y: the lecture's u and v, in units of the basis vectors.
-    origin, direction: the viewing ray, world space; a direction of NaN outside of the lens.
+    origin, direction: the viewing ray, world space; a direction of NaN outside the lens.
     t_range: the valid range of t.
     meetings: sorted, see Probe.at.
     hit, shading: None for the background.

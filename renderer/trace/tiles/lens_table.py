@@ -209,7 +209,7 @@ def _fit(rays, tile, face, turned, widest):
         for k in range(_PIXELS):
             ray = _ray(rays, top, left, k)
             is_own = face[frame] < 0 or _face_of(ray) == face[frame]
-            # NaN outside of the lens, and in other frames of the tile.
+            # NaN outside the lens, and in other frames of the tile.
             ahead[k] = _along(turned, frame, 2, ray) if is_own else np.nan
             x[k] = _along(turned, frame, 0, ray) / ahead[k]
             y[k] = _along(turned, frame, 1, ray) / ahead[k]

@@ -204,7 +204,7 @@ def is_line(array, index):
     return types.boolean, emit
 
 
-# Squares of 4 x 4 pixels to images: row r of the square goes to array[index + r * stride].
+# Store squares of 4 x 4 pixels in images: row r of the square goes to array[index + r * stride].
 
 
 @instruction
