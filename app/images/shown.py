@@ -81,6 +81,7 @@ class Pictures:
 
     def begin_frame(self) -> None:
         """Release textures that the frame before the last may have shown.
+
         Call this once a frame.
         """
         for picture in self._retired:

@@ -1,4 +1,4 @@
-"""A wrong answer to an exercise, as the outside view draws it next to the correct one. Pure."""
+"""The drawing of a wrong answer in the outside view, next to the correct one. Pure."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def ghosts(
 ) -> tuple[Item, ...]:
     """Return the drawing of a wrong answer; empty if it has nothing to draw.
 
-    texts: what was typed, by field. camera: of the step. end: the ray parameter at which the scene
+    texts: the typed text of each field. camera: of the step. end: the ray parameter at which the scene
     ends.
     """
     items: list[Item] = []

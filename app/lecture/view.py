@@ -254,6 +254,7 @@ class LectureView(Instrument):
 
     def follow(self, host: Host) -> None:
         """Handle new steps and newer files.
+
         Call this once a frame, even while the view is hidden.
         """
         if self.session is None:

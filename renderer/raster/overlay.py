@@ -172,7 +172,7 @@ class Overlay:
             "has_plane": has_plane,
         }
         if plane is not None:
-            # OpenGL's matrices are column-major: NumPy's transposed.
+            # OpenGL's matrices are column-major, so transpose NumPy's.
             shared["plane_from_screen"] = tuple(plane.from_screen.T.ravel().tolist())
             shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())

@@ -103,6 +103,7 @@ def _assigned(text: str) -> dict[str, str]:
 
 def _matrix(found: dict[str, str], names: tuple[str, ...]) -> tuple[str, Floats]:
     """Return the name that is present, and its numbers, four per row in the order of the text.
+
     A transposition in the text is ignored, since _orders() determines the order.
     """
     name = next((name for name in names if name in found), None)

@@ -205,6 +205,7 @@ def _rows(
 
 def _backs(rows: NDArray[np.float64], instances: Instances) -> NDArray[np.float32]:
     """Return PacketView.back.
+
     The instance's own space decides the front, even if it is mirrored.
     """
     is_single = np.append(instances.world.attributes & IS_SINGLE_SIDED > 0, False)
