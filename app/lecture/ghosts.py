@@ -27,8 +27,8 @@ def ghosts(
 ) -> tuple[Item, ...]:
     """Return the drawing of a wrong answer; empty if it has nothing to draw.
 
-    texts: the typed text of each field. camera: of the step. end: the ray parameter at which the scene
-    ends.
+    texts: the typed text of each field. camera: of the step. end: the ray parameter at the
+    scene's end.
     """
     items: list[Item] = []
     if isinstance(task, RayExercise):
