@@ -11,8 +11,8 @@ float32 has 7 digits, so nothing large may cancel on the GPU. Each object theref
 the point of its bounding box nearest to the eye. Vertices are in their object's space, and only
 their difference from the anchor is used. Lights, which belong to no object, are relative to the
 scene's point nearest to the eye (near_point). A triangle's plane intersects a ray at t (parallel)
-or 1/t (perspective) that is affine in x and y: the three coefficients are computed here, where N.(a
-- eye) may cancel without harm.
+or 1/t (perspective) that is affine in x and y. The three coefficients are computed here, where
+N.(a - eye) may cancel without harm.
 """
 
 from __future__ import annotations
@@ -209,7 +209,7 @@ def triangle_rows(
 ) -> None:
     """Store the coefficients (c0, c1, c2) of triangles in out, float32 (m, 3).
 
-    Starts at triangle `first`, and fills all of out. bases: from plane_bases().
+    They start at triangle `first`, and fill all of out. bases: from plane_bases().
 
     t (parallel) or 1/t (perspective) of the ray of pixel (x, y) is c0 * x + c1 * y + c2. A triangle
     that is edge-on, degenerate, or shows an invisible back gets (0, 0, -1), which is behind the
