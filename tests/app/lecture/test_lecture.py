@@ -62,7 +62,7 @@ def test_a_lecture_counts_pixels_in_one_way():
     for text, told in (
         (last.replace("[2, 3]\nsize", "[3, 3]\nsize"), "4x3; give a row up to 2 and a"),
         (FILE.replace("[1, 3]", "[0, 3]"), "not a pixel; give row and column, from 1"),
-        (from_zero.replace("[1, 3]", "[-1, 3]"), "no pixel; give row and column, from 0"),
+        (from_zero.replace("[1, 3]", "[-1, 3]"), "not a pixel; give row and column, from 0"),
         (with_two, r"x\.toml:3: pixels_from: "),
         (FILE.replace("options.shadows = true", "options.one_based = false"),
          r"x\.toml:26: steps\[0\]\.options\.one_based: differs from pixels_from = 1; leave it"),
