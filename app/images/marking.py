@@ -36,9 +36,9 @@ class Anchor:
 def followed(
     marked: Pixel | None, marked_size: Size | None, anchor: Anchor | None, view: View, size: Size
 ) -> tuple[Pixel | None, Anchor | None]:
-    """Return the mark in an image of `size`, and its anchor. marked_size: of the image in which
-    it was set; None for the present one. A mark that differs from the anchor's was set again, or
-    comes from a session or from undo.
+    """Return the mark in an image of `size`, and its anchor. marked_size: of the image in which it
+    was set; None for the present one. A mark that differs from the anchor's was set again, or comes
+    from a session or from undo.
     """
     if marked is None:
         return None, None

@@ -33,8 +33,8 @@ class Placement:
     """An image of `size` pixels, drawn `extent` large at `origin` in a window of `pane`.
 
     origin may be negative, extent larger than pane. magnification: screen pixels a side of an
-    image's pixel. rulers: (width, height) of the ruler at the image's left and of the one above
-    it, if the magnification has them; (0, 0) for no rulers. whole: each pixel is a square of whole
+    image's pixel. rulers: (width, height) of the ruler at the image's left and of the one above it,
+    if the magnification has them; (0, 0) for no rulers. whole: each pixel is a square of whole
     screen pixels.
     """
 

@@ -37,8 +37,8 @@ class RayImage:
     """A traced image.
 
     factor: the coarseness, 1 for the full image. frame: of the pixels' centres, which is compared
-    with the raster image. mean: the colour (H, W, 3) of several samples
-    per pixel, once there is one.
+    with the raster image. mean: the colour (H, W, 3) of several samples per pixel, once there is
+    one.
     """
 
     request: ImageRequest

@@ -1,7 +1,7 @@
-"""Both renderers behind the window: they keep both images up to date with the state.
+"""Both renderers behind the window, which keep both images up to date with the state.
 
-Includes the images' common size, the rasterizer, the live tracer and the comparison. All methods
-are called on the window's thread, with its context current.
+They include the images' common size, the rasterizer, the live tracer and the comparison. All
+methods must be called on the window's thread, with its context current.
 """
 
 from __future__ import annotations
@@ -44,12 +44,12 @@ NOTE_AFTER_S = 0.3
 class Renderers(ImageSize):
     """Both images of the present state.
 
-    While anything moves, both images have the same camera, and the same size: coarser by one
-    factor, which follows from the time that the last ones took. The raster image is drawn when the
-    ray image of its request is there; alone if no view shows that, or the tracer still prepares.
+    While anything moves, both images have the same camera and the same size, coarser by one factor
+    that follows from the time of the last ones. The raster image is drawn when the ray image of its
+    request is ready, or alone if that is hidden, or the tracer is still preparing.
 
-    wake: called from other threads when the window has something new to show. smooth: the tracer
-    yields to the window's frames, and images in motion may be coarse.
+    wake: called on other threads when there is a new result. smooth: the tracer yields to the
+    window's frames, and images in motion may be coarse.
     """
 
     def __init__(self, wake: Callable[[], None], smooth: bool = True) -> None:
@@ -60,18 +60,18 @@ class Renderers(ImageSize):
         self.textures: ImageTextures | None = None
         self.ray_image: RayImage | None = None
         self._raster_failed = False
-        self._pair: RayImage | None = None  # whose raster image is shown in this frame
+        self._pair: RayImage | None = None  # the raster image has its request in this frame
         self._camera = Memo(View.for_size)
         self._moving = False
-        # True if a view wants the ray image: in the last frame, in this one.
+        # True if a view needs the ray image, in the last frame and in this one.
         self._tracing = self._to_trace = False
 
     def begin(self, context: moderngl.Context) -> None:
-        """Call once, when there is a context."""
+        """Begin with a context. Call this once."""
         self.textures = ImageTextures(context, self._to_draw)
 
     def end(self) -> None:
-        """Call once, before the context is destroyed."""
+        """Release everything. Call this once, before the context is destroyed."""
         self.live.close()
         self.agreement.close()
         if self.textures is not None:
@@ -104,12 +104,12 @@ class Renderers(ImageSize):
         )
 
     def trace(self, state: AppState) -> None:
-        """Request the present state's ray image. Call in each frame that shows it."""
+        """Request the present state's ray image. Call this in each frame that shows it."""
         self._to_trace = True
         self._ask(state)
 
     def update(self, state: AppState, moving: bool) -> None:
-        """Take the threads' results. Call once a frame. moving: something is being dragged."""
+        """Take the threads' results. Call this once a frame. moving: True during a drag."""
         self._moving = moving
         self._begun.begin_frame()
         self.follow_resolution(state)
@@ -119,16 +119,16 @@ class Renderers(ImageSize):
             self.agreement.forget()
         self._raster_failed = failed
         if self._tracing:
-            self._ask(state)  # while other things are drawn, it may be there in time
+            self._ask(state)  # it may be ready by the end of the frame
         self._measure()
-        # Not in the frame of an image's arrival, which shows it first.
+        # Compare later than in the frame in which an image arrives.
         if not self._take_ray() and self._to_compare(state) and self._pace.rests:
             self._compare(state)
         self._pair = self._next_pair(state)
         self.agreement.poll()
 
     def _to_draw(self, request: ImageRequest) -> tuple[ImageRequest, int]:
-        """Return the raster image to show for a request, and how many times coarser."""
+        """Return the raster image to show for a request, and its coarseness."""
         factor, pair = self._pace.factor_of(request), self._pair
         if pair is None or not pair.request.may_stand_in_for(request):
             return request, factor
@@ -152,7 +152,7 @@ class Renderers(ImageSize):
             self.live.request(request if self._pace.rests else replace(request, samples=1), factor)
 
     def _measure(self) -> None:
-        """Record what the last images took: with OpenGL on the CPU, both use the same cores."""
+        """Record the times of the last images; with OpenGL on the CPU, both use the same cores."""
         factor, time_s = self._begun.raster.took
         if self._tracing:
             image = self.ray_image
@@ -177,7 +177,7 @@ class Renderers(ImageSize):
         self, is_ray: bool, state: AppState, placement: Placement, name: str = PANE
     ) -> Picture | None:
         """Return the visible part of the raster image in a window, drawn again if necessary, or of
-        the newest ray image. None on failure, or if that has another camera than the raster image.
+        the newest ray image. Return None on failure, or if the ray image has another camera.
 
         name: see Pictures.picture.
         """
@@ -187,14 +187,14 @@ class Renderers(ImageSize):
         return draw(placement, request, look_of(state.images), name)
 
     def shown_ray(self, state: AppState) -> RayImage | None:
-        """Return the ray image that is shown; None if it is stale."""
+        """Return the visible ray image; None if it is stale."""
         image, request = self.ray_image, self.request(state)
         if image is None or request is None or not image.is_beside(self._to_draw(request)[0]):
             return None
         return image
 
     def depths(self) -> tuple[float, float] | None:
-        """Return the ray parameters that are shown white and darkest; None if nothing is hit."""
+        """Return the ray parameters shown white and darkest; None if nothing is hit."""
         return self._begun.depths()
 
     def raster_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
@@ -211,11 +211,11 @@ class Renderers(ImageSize):
     ) -> dict[str, NDArray] | None:
         try:
             return self._begun.raster.values(request, channels, region)
-        except FAILURES:  # drawing reports it too
+        except FAILURES:  # drawing also reports it
             return None
 
     def ray_values(self, state: AppState, channel: str, region: Region) -> NDArray | None:
-        """Return the same of the ray image; None if the visible one is coarse, or stale."""
+        """Return raster_values() of the ray image; None if the visible one is coarse or stale."""
         image = self.shown_ray(state)
         if image is None or image.factor > 1:
             return None
@@ -226,7 +226,7 @@ class Renderers(ImageSize):
     # Progress and errors.
 
     def unfinished(self, state: AppState) -> bool:
-        """True if later frames have something to do that no thread will call for."""
+        """True if later frames have work for which no thread will wake the window."""
         if not self._pace.rests or self._to_compare(state):
             return True
         return self.textures is not None and self.textures.unfinished
@@ -239,9 +239,7 @@ class Renderers(ImageSize):
         return self.live.busy or self.agreement.busy
 
     def settled(self, state: AppState) -> bool:
-        """True if the visible images are complete, and compared if both are visible: nothing will
-        change by itself.
-        """
+        """True if the visible images are complete, and compared if both are visible."""
         if self.busy or self.unfinished(state):
             return False
         return not self._tracing or (
@@ -250,16 +248,16 @@ class Renderers(ImageSize):
 
     @property
     def is_tracing(self) -> bool:
-        """True if the ray image is visible, so that a verdict on both will come."""
+        """True if the ray image is visible, so that a verdict will follow."""
         return self._tracing
 
     def verdict(self, state: AppState) -> Verdict | None:
-        """Return whether the images of this state agree; None until that is known."""
+        """Return the verdict on this state's images; None until it is known."""
         return self.agreement.verdict_on(self.request(state))
 
     def why_black(self, state: AppState) -> Reason | None:
-        """Return why the images of this state show nothing, or only black; None if they do show
-        something, or it is not known.
+        """Return the reason that this state's images show nothing, or only black; None if there is
+        none, or it is unknown.
         """
         verdict, images = self.verdict(state), state.images
         if verdict is None:
@@ -294,7 +292,7 @@ class Renderers(ImageSize):
         return self.raster_error or self.ray_error or self.agreement.error
 
     def retry(self) -> None:
-        """Try again what has failed."""
+        """Retry after errors."""
         self._begun.retry()
         self.live.retry()
         self.agreement.forget()
@@ -315,9 +313,7 @@ class Renderers(ImageSize):
     # Single pixels.
 
     def depth_at(self, state: AppState, pixel: tuple[int, int]) -> float | None:
-        """Return the ray parameter seen at (row, column); None if nothing is hit, or it is not
-        known.
-        """
+        """Return the ray parameter at (row, column); None if nothing is hit, or it is unknown."""
         frame = self._frame_with(state, pixel)
         depth = float(frame.channel("depth")[pixel]) if frame is not None else math.inf
         return depth if math.isfinite(depth) else None
@@ -325,7 +321,7 @@ class Renderers(ImageSize):
     def object_at(self, state: AppState, pixel: tuple[int, int]) -> int | None:
         """Return the number of the object at (row, column); None for the background.
 
-        If no finished image has the answer, a ray is cast into the scene.
+        A ray is cast into the scene if no finished image has the answer.
         """
         frame = self._frame_with(state, pixel)
         if frame is None:
@@ -335,8 +331,8 @@ class Renderers(ImageSize):
         return number if number >= 0 else None
 
     def seen_at(self, state: AppState, pixel: tuple[int, int]) -> str:
-        """Return the object at (row, column) in words, in the ray image or, if no view shows that,
-        in the raster image; empty if it is not known.
+        """Return the object at (row, column) as text, from the ray image or, if that is hidden,
+        from the raster image; empty if unknown.
         """
         found = self._hit_at(state, pixel)
         if found is None:
@@ -378,7 +374,7 @@ class Renderers(ImageSize):
         assert image is not None
         try:
             raster = self._begun.raster.read_back(image.request)
-            if raster is not None:  # otherwise a lens's table is being made
+            if raster is not None:  # it is None while a lens's table is being made
                 self.agreement.submit(image, raster)
         except FAILURES as error:
             self.agreement.fail(image.request, error)

@@ -19,9 +19,9 @@ MIRROR_DEPTH = 4  # reflections of a ray, where mirrors are shown
 class ImageRequest:
     """Everything that an image depends on, for both renderers.
 
-    size: (width, height) of the full image. shadows, mirrors: effects of the ray image
-    that the raster image cannot show. channel: the visible one. samples: per pixel, for the colour
-    of the full ray image. enlargement: texels per pixel of the faces behind a lens.
+    size: (width, height) of the full image. shadows, mirrors: effects of the ray image that the
+    raster image cannot show. channel: the visible one. samples: per pixel, for the colour of the
+    full ray image. enlargement: texels per pixel of the faces behind a lens.
     """
 
     scene: Scene

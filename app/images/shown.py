@@ -80,8 +80,9 @@ class Pictures:
         return Picture(target.texture, made)
 
     def begin_frame(self) -> None:
-        """Release textures that the frame before the last may have shown. Call this once a
-        frame.
+        """Release textures that the frame before the last may have shown.
+
+        Call this once a frame.
         """
         for picture in self._retired:
             picture.release()

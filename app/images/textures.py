@@ -1,4 +1,4 @@
-"""Both images as textures that ImGui can show, with one look: channel, exposure, depth range."""
+"""Both images as textures for ImGui, with the same look: channel, exposure and depth range."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class ImageTextures:
     """The images in the window's context, which must be current in every call.
 
     choice: see LiveRaster. rasterizer: the window's. raster: the raster image. raster_error,
-    ray_error: the reason that an image is not shown.
+    ray_error: the reason that an image is missing.
     """
 
     def __init__(
@@ -45,26 +45,26 @@ class ImageTextures:
         self._depths: DepthBounds | None = None
         self._measured = Memo(_measured)
         self._frame = 0
-        self._raster_frame = -1  # the last one that showed the raster image
+        self._raster_frame = -1  # the last frame that showed the raster image
         self.raster_error: Exception | None = None
         self.ray_error: Exception | None = None
 
     def retry(self) -> None:
-        """Create the rasterizer and upload the ray image again if that has failed. Drawing is
-        tried in each frame anyway.
+        """Create the rasterizer and upload the ray image again after a failure. Drawing is retried
+        in each frame.
         """
         self.rasterizer.retry()
         self._ray_failures = 0
 
     def begin_frame(self) -> None:
-        """Call once a frame, before anything else."""
+        """Begin a frame. Call this once a frame, before anything else."""
         self._frame += 1
         self._pictures.begin_frame()
         self.raster.begin_frame()
-        self._range.numbers()  # read them even if nobody asks, so that nothing is left to do
+        self._range.numbers()  # read them even if they are not needed, so that no work is left
 
     def whole_raster(self, request: ImageRequest, look: Look) -> moderngl.Texture | None:
-        """Return all of the raster image, row 0 at the top. Otherwise like raster_in()."""
+        """Return the whole raster image, row 0 at the top; otherwise like raster_in()."""
         picture = self.raster_in(whole(request.size), request, look, WHOLE)
         return picture.texture if picture is not None else None
 
@@ -91,7 +91,7 @@ class ImageTextures:
             picture = self._pictures.picture(name, look, placement, source, self._depths)
             self.raster_error = None
             return picture
-        except FAILURES as error:  # shown in the window, which goes on
+        except FAILURES as error:  # the window shows it, and continues
             self.raster.forget()
             self.raster_error = error
             return None
@@ -112,8 +112,8 @@ class ImageTextures:
         look: Look,
         name: str = PANE,
     ) -> Picture | None:
-        """Return the visible part of the last ray image in a window; None if that has another
-        camera than the raster image, or if uploading it failed, see ray_error.
+        """Return the visible part of the last ray image in a window; None if its camera differs
+        from the raster image's, or if uploading it failed, see ray_error.
         """
         image = self._ray
         if image is None or self._ray_failures >= ATTEMPTS:
@@ -139,7 +139,7 @@ class ImageTextures:
 
     @property
     def unfinished(self) -> bool:
-        """True if the next frames refine an image, try again, or read a measurement."""
+        """True if the next frames will refine an image, retry, or read a measurement."""
         refines = self.sees_raster and self.raster.unfinished
         tries_again = 0 < self._ray_failures < ATTEMPTS
         return refines or self.raster.is_timed or tries_again or self._range.unfinished
@@ -154,15 +154,15 @@ class ImageTextures:
                     texture.release()
 
     def _upload(self, image: RayImage, channel: str) -> Source:
-        """Upload one channel, unless it is there already: in a large image, each takes 100 MB."""
+        """Upload one channel unless it is already uploaded; a large image's takes 100 MB."""
         if self._uploaded != (image, channel) or self._ray_texture is None:
             texture, self._ray_texture = self._ray_texture, None  # upload() releases it if it fails
             self._ray_texture = upload(self._gl, image.shown(channel), texture)
             self._uploaded, self._upload_count = (image, channel), self._upload_count + 1
-        return self._ray_texture, self._upload_count  # not the image, which pictures would keep
+        return self._ray_texture, self._upload_count  # not the image, which would stay alive
 
     def _z_source(self, image: RasterImage) -> moderngl.Texture:
-        """Return the raster image's distances z, uploaded unless they are there already."""
+        """Return the raster image's distances z, uploaded if necessary."""
         if self._z_image is not image or self._z_texture is None:
             z = self.raster.z(image)
             texture, self._z_texture = self._z_texture, None  # upload() releases it if it fails

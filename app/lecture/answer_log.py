@@ -47,7 +47,7 @@ class KeptAnswer(msgspec.Struct, tag_field="lucida", tag="answer", omit_defaults
 class AnswerLog:
     """A log that appends answers to a file.
 
-    name: what the user has typed as a name, or "".
+    name: the name that the user has typed, or "".
     problem: the reason why the last answer could not be written, or "".
     """
 
@@ -64,7 +64,7 @@ class AnswerLog:
                 try:
                     msgspec.json.decode(first, type=KeptAnswer)
                 except msgspec.DecodeError:
-                    problem, remedy = "is a file of something else", "give a new file"
+                    problem, remedy = "is a file of another kind", "give a new file"
                     raise LucidaError("--answers", problem, remedy, str(path)) from None
                 file.seek(-1, os.SEEK_END)
                 if file.read() != b"\n":  # a crash has cut the last line
@@ -109,7 +109,7 @@ class AnswerLog:
             after_solution,
         )
         try:
-            # One write at the end of the file: several windows may share it.
+            # Write once, at the end of the file, because several windows may share it.
             file = os.open(self.path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
             try:
                 os.write(file, msgspec.json.encode(line) + b"\n")

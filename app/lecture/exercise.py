@@ -35,7 +35,7 @@ def exercise(
     fonts: Fonts,
     said: Judgement | None = None,
 ) -> bool:
-    """Draw an exercise, and store what is typed and selected.
+    """Draw an exercise, and store the user's input.
 
     said: the reply to an exercise that is answered in the views; None until it is known.
     Return True if the solution must be shown in the views.

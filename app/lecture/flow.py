@@ -1,7 +1,7 @@
 """A lecture's text broken into lines and laid out in a column of any width.
 
-Widths of words and formulas come from a function of the caller. Lengths are in pixels, y downwards
-from the column's top.
+The caller's function measures words and formulas. Lengths are in pixels, with y downwards from the
+column's top.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from .text import (
     Words,
 )
 
-# Relative to the text's size.
+# Lengths relative to the text's size.
 LEADING = 1.18  # from line to line
 CODE_LEADING = 1.1
 PARAGRAPH = 0.5  # between blocks
@@ -34,7 +34,7 @@ ITEM = 0.2  # between a list's items
 INDENT = 1.25  # of a list, at least
 HEADING_SIZE = 1.25
 ASIDE = 0.8  # at the left of a question's text
-WHOLE_CODE = 16  # the most letters of code in a sentence that are not broken
+WHOLE_CODE = 16  # longest code in a sentence that is not broken, in letters
 
 
 @dataclass(frozen=True)
@@ -48,9 +48,10 @@ class PieceSize:
 
 @dataclass(frozen=True)
 class Piece:
-    """A word, several, or a formula. size: of its text. style: "text", "bold", "vector" (a bold
-    word alone, which may be one), "italic", "code" or "math" (of LaTeX). display: a formula by
-    itself.
+    """A word, several words, or a formula.
+
+    size: of its text. style: "text", "bold", "vector" (a single bold word, which may be a vector's
+    name), "italic", "code" or "math" (LaTeX). display: a formula on its own line.
     """
 
     text: str
@@ -85,7 +86,7 @@ class Backdrop:
 
 @dataclass(frozen=True)
 class Laid:
-    """A column of text. height: of all of it. width: of its widest line."""
+    """A column of text. height: of the whole column. width: of its widest line."""
 
     pieces: tuple[Placed, ...]
     boxes: tuple[Backdrop, ...]
@@ -156,7 +157,7 @@ class _Column:
             self._put(marks[number], indent - widths[number], baseline, "mark")
 
     def _formula(self, latex: str) -> None:
-        """Lay out a formula; in several rows, broken at its signs, if it is too wide."""
+        """Lay out a formula. Break it at its signs into several rows if it is too wide."""
         size, row = self._size, ""
         rows: list[str] = []
         for part in breakable(latex):
@@ -180,9 +181,7 @@ class _Column:
         return self._measure(Piece(latex, "math", self._size, display=True)).width
 
     def _code(self, text: str) -> None:
-        """Lay out lines as they are. If one is too long, it continues in the next row, and all are
-        indented less.
-        """
+        """Lay out lines of code. Continue a long one in the next row, and then indent all less."""
         size, inset = self._size, 0.5 * self._size
         letter = self._measure(Piece("0", "code", size)).width
         letters = max(8, int((self._width - 2 * inset) / letter))
@@ -218,7 +217,7 @@ class _Column:
         self._end_row(row, size, kind)
 
     def _end_row(self, row: list[tuple[Piece, PieceSize, float]], size: float, kind: str) -> None:
-        """Place a row. High formulas push it and the next one down."""
+        """Place a row. Tall formulas move it and the next one down."""
         if not row:
             return
         usual = self._measure(Piece("x", "text", size))

@@ -1,4 +1,4 @@
-"""A wrong answer to an exercise, as the outside view draws it next to the correct one. Pure."""
+"""The drawing of a wrong answer in the outside view, next to the correct one. Pure."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def ghosts(
 ) -> tuple[Item, ...]:
     """Return the drawing of a wrong answer; empty if it has nothing to draw.
 
-    texts: what was typed, by field. camera: of the step. end: the ray parameter at which the scene
-    ends.
+    texts: the typed text of each field. camera: of the step. end: the ray parameter at the
+    scene's end.
     """
     items: list[Item] = []
     if isinstance(task, RayExercise):

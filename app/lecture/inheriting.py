@@ -1,5 +1,5 @@
-"""The table of a step at each of its builds: fields that a build leaves out are those of the build
-before.
+"""The table of a step at each of its builds. Fields that a build leaves out keep their previous
+values.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from lucida.renderer.scene.model import View
 from .schema import BuildTable, StepTable
 from .text import extended
 
-_BY_BASIS = {"u", "v", "w", "viewport"}  # fields that no camera with a target has
+_BY_BASIS = {"u", "v", "w", "viewport"}  # fields that a camera with a target lacks
 
 
 def inherited(table: StepTable, build: BuildTable, view: View) -> StepTable:
-    """Return a step's table at a build. table, view: at the build before. Raises LucidaError."""
+    """Return a step's table at a build. table, view: at the previous build. Raises LucidaError."""
     text = build.instead or (extended(table.text, build.text) if build.text else table.text)
     camera = build.camera
     if isinstance(camera, dict):

@@ -1,4 +1,4 @@
-"""A lecture: its steps, its outline, its formulas. reading.py makes it from a file."""
+"""A lecture: its steps, its outline and its formulas. reading.py makes it from a file."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ class Step:
 
     number, build: from 0.
     part: the part of the lecture that it belongs to.
-    before: the part of the text that the build before shows already.
+    before: the part of the text that the previous build already shows.
     views: the names of the views to show, the main one first.
     full: the picture fills the window, and the text lies over it.
     changes: of the default options, by part, as in the file.
     options: the default options with these changes.
     pixel: the marked one, (row, column), 0-based.
     exercise: of the step's last build; otherwise None.
-    move_s: how long the movement from the build before takes; 0 for a cut.
+    move_s: the duration of the movement from the previous build; 0 for a cut.
     loop: the movement repeats until the next key.
-    line: where it begins in the file.
+    line: its first line in the file.
     """
 
     number: int
@@ -59,7 +59,7 @@ class Step:
 
 @dataclass(frozen=True, eq=False)
 class Written:
-    """A formula in a file. field, source, line: where it begins."""
+    """A formula in a file. field, source, line: its place."""
 
     latex: str
     field: str
@@ -71,7 +71,7 @@ class Written:
 class Lecture:
     """A lecture.
 
-    builds: of all steps, one after another, as they are shown.
+    builds: of all steps, in order.
     source: its file.
     formulas: all of them, in the file's order.
     outside: files outside its folder that the user has agreed to.
@@ -90,7 +90,7 @@ class Lecture:
 
     @property
     def summary(self) -> tuple[str, ...]:
-        """Return the notes in at most one line: many would cover the slide."""
+        """Return the notes in at most one line, because many would cover the slide."""
         if len(self.notes) < 2:
             return self.notes
         others = f"{len(self.notes) - 1} more: lucida lecture {Path(self.source).name} --check"
@@ -123,19 +123,19 @@ class Lecture:
         return parts
 
     def explaining(self, step: Step) -> str:
-        """Return the title of the step before an exercise that explains it."""
+        """Return the title of the earlier step that explains an exercise."""
         asking = {one.number for one in self.builds if one.exercise is not None}
         before = self.steps[: step.number]
         return next((one.title for one in reversed(before) if one.number not in asking), step.title)
 
     def number_of(self, title: str) -> int | None:
-        """Return the number of the first step of a title; None if there is none."""
+        """Return the number of the first step with a title; None if there is none."""
         return next((step.number for step in self.steps if step.title == title), None)
 
     def nearest(self, title: str, number: int) -> int:
-        """Return the number of the nearest step of that title; if there is none, the same number.
+        """Return the number of the nearest step with that title, or else the same number.
 
-        In a newer version of a lecture, this is the step to continue at.
+        This is the step at which to continue in a newer version of a lecture.
         """
         same = [k for k, step in enumerate(self.steps) if step.title == title]
         if same:

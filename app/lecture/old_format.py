@@ -1,6 +1,6 @@
-"""Steps in the format before builds: lists that were uncovered, answers, links.
+"""Steps in the format before builds, with revealed lists, answers and links.
 
-They are read as builds, so that the window knows one mechanism.
+They are read as builds, so that the window needs only one mechanism.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .text import Block, ItemList, parse
 Blocks = tuple[Block, ...]
 FIELDS = ("reveal", "answer", "links", "low", "highlight")
 REMEDY = (
-    "is of an older format: write what is shown later as [[steps.builds]]; "
+    "is of an older format: write later content as [[steps.builds]]; "
     "links, low and highlight are ignored"
 )
 
@@ -24,7 +24,8 @@ REMEDY = (
 def kind_of(table: Any) -> type[StepTable]:
     """Return the structure of a step's table, which has not been checked yet.
 
-    Only a table with removed fields has them, so that no message suggests one to others.
+    Only a table with removed fields gets the structure that has them, so that no message suggests
+    one to others.
     """
     is_old = isinstance(table, dict) and not table.keys().isdisjoint(FIELDS)
     return OldStepTable if is_old else StepTable
@@ -36,8 +37,8 @@ def fields_of(table: OldStepTable) -> list[str]:
 
 
 def old_builds(table: OldStepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
-    """Return the texts of a step one after another: with the items of its lists one by one if it
-    reveals them, and with the answer last. With each, the blocks that stay from the one before.
+    """Return (the blocks that stay, the text) of each build of a step: its lists item by item if it
+    reveals them, and then the answer.
     """
     lists = [block for block in blocks if isinstance(block, ItemList) and table.reveal]
     texts = [tuple(_shown(blocks, count)) for count in range(sum(len(x.items) for x in lists))]

@@ -240,7 +240,7 @@ class _LectureReader:
         return [replace(one, build=build) for build, one in enumerate(builds)]
 
     def _old_builds(self, table: StepTable, blocks: Blocks) -> list[tuple[Blocks, Blocks]]:
-        """Return (the text that stays, the new text) of each build of a step in any format."""
+        """Return (the blocks that stay, the text) of each build of a step in any format."""
         if not isinstance(table, OldStepTable) or table.builds or not (old := fields_of(table)):
             return [((), blocks)]
         if not self._old:

@@ -1,7 +1,7 @@
 """The answers of a class, read from files and counted in one table by step.
 
-The files are those of `lucida lecture --answers`. They may hold anything: a line that cannot
-be read is skipped and reported, and all text is escaped.
+The files are those of `lucida lecture --answers`. They may hold anything: a line that cannot be
+read is skipped and reported, and all text is escaped.
 """
 
 from __future__ import annotations

@@ -130,8 +130,8 @@ class LectureSession:
         return True
 
     def take(self, lecture: Lecture) -> None:
-        """Continue in a newer version, at the same step. Replies to questions that have
-        changed, or count pixels differently, are dropped; typed texts stay.
+        """Continue in a newer version, at the same step. Replies to questions that have changed, or
+        count pixels differently, are dropped; typed texts stay.
         """
         before, after = (
             {step.title: step.exercise for step in one.builds} for one in (self.lecture, lecture)

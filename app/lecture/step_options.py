@@ -26,11 +26,11 @@ from lucida.renderer.system.errors import LucidaError, under
 from .hiding import HideExercise
 from .model import Step
 
-_types = lru_cache(get_type_hints)  # it is slow
+_types = lru_cache(get_type_hints)  # get_type_hints() is slow
 
-OWN = ("preferences", "bookmarks")  # the user's own, which no step changes
-CHOSEN = ("language",)  # by the user, until a step changes them
-ELSEWHERE = (*OWN, "marked", "marked_size")  # options that have fields of their own in a step
+OWN = ("preferences", "bookmarks")  # the user's own options, which no step changes
+CHOSEN = ("language",)  # options that stay until a step changes them
+ELSEWHERE = (*OWN, "marked", "marked_size")  # options with their own fields in a step
 
 NAMES = tuple(entry.name for entry in fields(Options) if entry.name not in ELSEWHERE)
 
@@ -41,8 +41,8 @@ def own(options: Options) -> Options:
 
 
 def state_of(step: Step, base: AppState) -> AppState:
-    """Return the step's own state: its scene, its view and its options. The object that an exercise
-    asks to move is selected.
+    """Return the step's own state: its scene, its view and its options. The object to move in an
+    exercise is selected.
 
     base: the current state. Only the user's own options, the language of programs and
     the place in the lecture are kept.
@@ -75,7 +75,7 @@ def options_from_table(tables: dict[str, Any]) -> dict[str, Any]:
 
 
 def files_named(tables: Any) -> Iterator[str]:
-    """Yield the files that a step's options name, even if something else is wrong with them."""
+    """Yield the files that a step's options name, even if other values are invalid."""
     for kind, _, part in _with_files(tables if isinstance(tables, dict) else {}):
         yield from (part[name] for name in files_of(kind) if isinstance(part.get(name), str))
 

@@ -2,7 +2,7 @@ r"""Parse Markdown with formulas into blocks to draw.
 
 A lecture may use headings (#), paragraphs, lists (- or 1.), code (```), questions to the class (>),
 **bold**, *italic*, `code`, $formulas$ and $$displayed formulas$$. \$ is a dollar sign. Other
-Markdown is shown as it is written.
+Markdown is shown as typed.
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ def extended(text: str, more: str) -> str:
 
 
 def escaped(text: str) -> str:
-    """Escape a text so that it is shown as typed, whatever signs are in it."""
+    """Escape a text so that all of its signs are shown as typed."""
     return re.sub(r"([\\$*_`[])", r"\\\1", text)
 
 

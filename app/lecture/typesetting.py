@@ -1,7 +1,8 @@
 """Check that formulas can be typeset: find commands unknown to MicroTeX, and its errors.
 
 The check works without a window, on any thread. MicroTeX raises an error for an invalid formula,
-and draws an unknown command as it is written, in red.
+and
+draws an unknown command as typed, in red.
 """
 
 from __future__ import annotations

@@ -253,8 +253,9 @@ class LectureView(Instrument):
             self._column.hidden_watch.close()
 
     def follow(self, host: Host) -> None:
-        """Handle new steps and newer files. Call this once a frame, even while the view is
-        hidden.
+        """Handle new steps and newer files.
+
+        Call this once a frame, even while the view is hidden.
         """
         if self.session is None:
             return

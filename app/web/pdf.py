@@ -1,4 +1,4 @@
-"""Print a page as PDF, by a browser that is installed."""
+"""Print a page as PDF with an installed browser."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LIMIT_S = 300.0
 
 
 def browser() -> str:
-    """Return the program that prints. Raises LucidaError if there is none."""
+    """Return the browser's program. Raises LucidaError if there is none."""
     for name in BROWSERS:
         if found := shutil.which(name):
             return found
@@ -36,13 +36,13 @@ def browser() -> str:
 
 
 def pdf(html: str, program: str) -> bytes:
-    """Return a page as PDF. program: as browser() returns it. Raises LucidaError."""
+    """Return a page as PDF. program: from browser(). Raises LucidaError."""
     with tempfile.TemporaryDirectory(prefix="lucida-print-", ignore_cleanup_errors=True) as folder:
         page, printed = Path(folder, "page.html"), Path(folder, "page.pdf")
         page.write_text(html, encoding="utf-8")
         command = [program, *OPTIONS, f"--user-data-dir={Path(folder, 'profile')}"]
         if sys.platform == "linux" and os.geteuid() == 0:
-            command.append("--no-sandbox")  # it has none for root; the page loads nothing
+            command.append("--no-sandbox")  # root cannot have a sandbox; the page loads nothing
         command += [f"--print-to-pdf={printed}", page.as_uri()]
         try:
             subprocess.run(command, capture_output=True, timeout=LIMIT_S, check=False)

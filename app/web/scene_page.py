@@ -1,4 +1,4 @@
-"""A scene as one HTML page: both images, from a camera that its reader moves."""
+"""A scene as one HTML page with both images, whose camera the reader can move."""
 
 from __future__ import annotations
 
@@ -57,5 +57,5 @@ def write_scene_page(path: str | Path, scene: Scene, view: View) -> int:
 
 
 def check_page_path(path: str | Path) -> Path:
-    """Return the path. Raises LucidaError if it cannot be written, or is no page's."""
+    """Return the path. Raises LucidaError if it cannot be written, or is not a page's."""
     return check_export_path(path, ENDINGS)

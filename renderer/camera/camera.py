@@ -216,7 +216,7 @@ class Camera:
     def ray(self, i: ArrayLike, j: ArrayLike, size: Size) -> Ray:
         """Return the viewing ray of pixel (i, j); for arrays of pixels, arrays (..., 3).
 
-        Outside of the lens, the direction is NaN.
+        Outside the lens, the direction is NaN.
         """
         x, y = np.broadcast_arrays(*self.image_point(i, j, size))
         if self.is_parallel:
@@ -237,14 +237,14 @@ class Camera:
         pixels, both (rows, columns). Infinite t have infinite z.
         """
         ahead = self.distance if self.lens is None else -self.lens_directions(size)[*part, 2]
-        with np.errstate(invalid="ignore"):  # outside of the lens
+        with np.errstate(invalid="ignore"):  # outside the lens
             z = np.asarray(t, float) * (1.0 if self.is_parallel else ahead)
         return np.where(np.isfinite(t), z, t)
 
     def lens_directions(self, size: Size) -> Floats:
         """Return the directions of all pixels' rays in units of u, v and w: read-only float64
-        (height, width, 3), NaN outside of the lens. They do not depend on eye and basis, and are
-        computed once, up to LARGEST_KEPT pixels. Only for a camera with a lens.
+        (height, width, 3), NaN outside the lens. They do not depend on eye and basis, and are
+        computed once, up to LARGEST_KEPT pixels. The camera must have a lens.
         """
         assert self.lens is not None
         return image_plane.all_seen_through(self.lens, self.viewport, self.distance, size)
@@ -252,7 +252,7 @@ class Camera:
     def direction(self, x: ArrayLike, y: ArrayLike) -> Floats:
         """Return the directions (..., 3) of perspective rays through points of the image plane.
 
-        x, y: in units of u and v, any shape. Outside of the lens, the directions are NaN.
+        x, y: in units of u and v, any shape. Outside the lens, the directions are NaN.
         """
         x, y = np.asarray(x, float), np.asarray(y, float)
         if self.lens is None:

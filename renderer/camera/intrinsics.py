@@ -101,8 +101,8 @@ def decomposed(pixel_to_direction: Floats, eye: ArrayLike, pixel_origin: str) ->
     """Return K, R and t of a camera, given the map from pixels to ray directions.
 
     The ray through the point (x, y) of the image, in pixels from the corner of its first pixel, has
-    the direction pixel_to_direction @ (x, y, 1). K's diagonal is positive, except that
-    K[0, 0] of a mirrored image is negative.
+    the direction pixel_to_direction @ (x, y, 1). K's diagonal is positive, except that K[0, 0] of a
+    mirrored image is negative.
     """
     from_corner = np.array(
         [[1, 0, pixel_offset(pixel_origin)], [0, 1, pixel_offset(pixel_origin)], [0, 0, 1]]

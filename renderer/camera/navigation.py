@@ -68,7 +68,7 @@ def orbited(camera: Camera, pivot: ArrayLike, right_rad: float, up_rad: float) -
 def panned(camera: Camera, start: Point, end: Point, parameter: float) -> Camera:
     """Return the camera moved so that the point seen at `start` is seen at `end`, exactly.
 
-    parameter: the ray parameter of the dragged point (perspective only). Outside of the lens,
+    parameter: the ray parameter of the dragged point (perspective only). Outside the lens,
     nothing moves.
     """
     if camera.lens is not None:
@@ -89,7 +89,7 @@ def zoomed(camera: Camera, at: Point, factor: float, parameter: float) -> Camera
     """Return the camera that sees things `factor` times as large, about the fixed image point `at`.
 
     Perspective: the eye moves along that ray towards the point at `parameter`, and never reaches
-    it. Parallel: the viewport shrinks about `at`. Outside of the lens, nothing moves.
+    it. Parallel: the viewport shrinks about `at`. Outside the lens, nothing moves.
     """
     if camera.is_parallel:
         return zoomed_viewport(camera, at, factor)

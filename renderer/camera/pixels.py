@@ -10,7 +10,7 @@ from enum import Enum
 
 Pixel = tuple[int, int]
 
-# Texels per pixel, along a side, of the pinhole images that a lens's image is looked up in.
+# Texels per pixel, along a side, of the pinhole images in which a lens's image is looked up.
 ENLARGEMENTS = (1, 2, 4)
 ENLARGEMENT = 2
 

@@ -1,18 +1,18 @@
-"""Why two images of one view differ at a pixel: which discontinuity of the exact image is near.
+"""Find the cause of a difference between two images at a pixel: a nearby discontinuity.
 
 A rasterizer snaps vertices to 1/256 pixel. A pixel whose centre is within TOLERANCE_PX of a line
-where the exact image jumps may therefore see either side of it. Both renderers compute in float32:
-the same holds within float32's error of such a line. Everywhere else the images must agree.
+where the exact image jumps may therefore show either side of it. Both renderers compute in float32,
+so the same holds within float32's error of such a line. Everywhere else, the images must agree.
 
-Only lines of the two primitives that the images show at the pixel count. All of this is float64,
-and each line is the zero of a smooth function of the position in the image, so that its distance
-in pixels is the function's value over its slope:
+Only lines of the two primitives that the images show at the pixel count. Arithmetic is float64.
+Each line is the zero of a smooth function of the position in the image, so that its distance in
+pixels is the function's value over its slope:
 
     edge     an edge of a triangle, the outline of a sphere; where the two surfaces meet; a surface
              so oblique or small that its depth, smooth normal or vertex colours differ as much
              within TOLERANCE_PX
     pattern  a border of a checker's cell or of a hole; a texture that varies as much
-    clip     where near or far cuts, or what OpenGL clips right before the eye
+    clip     a cut by near or far, or by OpenGL just in front of the eye
     lookup   an edge, a clip line or a hole within half a texel, in the pinhole image in which a
              lens's pixel is looked up
 """
@@ -73,7 +73,7 @@ def explained(
     pixels: Differing,
     enlargement: int | None,
 ) -> NDArray[np.uint8]:
-    """Return for each of n pixels 1 + the index in CAUSES of what explains it; 0 for nothing.
+    """Return 1 + the index in CAUSES of the cause for each of n pixels; 0 if there is none.
 
     enlargement: of the faces in which the raster image of a lens was looked up; None if both images
     were made from the pixels' rays.
@@ -97,8 +97,8 @@ def explained(
 
 
 def _causes(view: View, pixels: Differing, i: Numbers, j: Numbers) -> NDArray[np.uint8]:
-    """Return labels (n,) as explained() does, without lookups. i, j: where the pixels' rays are
-    in this image.
+    """Return labels (n,) like explained(), without lookups. i, j: the places of the pixels' rays in
+    this image.
     """
     edge, hole, clip = _parting(view, pixels, i, j, TOLERANCE_PX)
     first, second = pixels.channel("primitive")
@@ -118,8 +118,8 @@ def _causes(view: View, pixels: Differing, i: Numbers, j: Numbers) -> NDArray[np
 
 
 def _parting(view: View, pixels: Differing, i: Numbers, j: Numbers, px: float) -> Bools:
-    """Return which pixels are within `px` of a line that parts two primitives: an edge, a hole,
-    a clip line, (3, n).
+    """Return masks (3, n) of pixels within `px` of an edge, a hole, or a clip line, which separate
+    two primitives.
     """
     primitives, depths = pixels.channel("primitive"), pixels.channel("depth").astype(float)
     first, second = (Surfaces(view, *one) for one in zip(primitives, depths, strict=True))
@@ -132,7 +132,7 @@ def _parting(view: View, pixels: Differing, i: Numbers, j: Numbers, px: float) -
 
 
 def _meet(first: Surfaces, second: Surfaces, i: Numbers, j: Numbers, px: float) -> Bools:
-    """Return which pixels are within px of where the surfaces of two primitives meet."""
+    """Return a mask of pixels within px of the intersection of two primitives' surfaces."""
 
     def gap(i: Numbers, j: Numbers) -> Floats:
         return first.parameter(i, j) - second.parameter(i, j)
@@ -145,8 +145,9 @@ def _meet(first: Surfaces, second: Surfaces, i: Numbers, j: Numbers, px: float) 
 
 
 def _jumps(seen: Surfaces, pixels: Differing, i: Numbers, j: Numbers) -> tuple[Bools, Bools]:
-    """Return for pixels that show one primitive: does its depth, smooth normal or vertices' colour
-    change as much as it differs within TOLERANCE_PX; do depth and normal not differ.
+    """Return two masks for pixels with the same primitive in both images: its depth, smooth normal
+    or vertex colour varies enough within TOLERANCE_PX to explain the difference; depth and normal
+    agree.
     """
     t, colors = pixels.channel("depth").astype(float), pixels.channel("color")
     turned = np.abs(np.subtract(*pixels.channel("normal"))).max(axis=1)

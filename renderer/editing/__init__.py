@@ -5,7 +5,7 @@
     objects     add, delete, duplicate, rename, hide
     moving      objects and lights moved in the world, and their bounds
     materials   change the objects' materials
-    documents   saved and unsaved: the file that a scene belongs to
+    documents   the file of a scene, and its unsaved changes
 
 A scene is an immutable value: edits return a new one, and undo keeps the old one.
 """

@@ -122,8 +122,8 @@ def rename(scene: Scene, item: Item, name: str) -> Scene:
 
 
 def hide(scene: Scene, items: Sequence[Item], hidden: bool = True) -> Scene:
-    """Return the scene with some items hidden, or shown. No renderer draws hidden items; ids
-    stay the same.
+    """Return the scene with some items hidden, or shown. No renderer draws hidden items; ids stay
+    the same.
     """
     return set_field(scene, items, "hidden", True if hidden else None)
 

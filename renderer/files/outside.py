@@ -1,7 +1,7 @@
 """A sandbox for the files that a scene names, and checks for files outside its folder.
 
 A scene file may name a model anywhere: "../m.obj", "/home/m.obj", or a link that leads there.
-Reading a file from somebody else stays inside its folder unless the user has agreed.
+Reading a file of another author stays inside its folder unless the user has agreed.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ LISTED = 8  # files that an error names
 
 
 class OutsideError(LucidaError):
-    """A file names others outside its folder, to which the user has not agreed. files: their
-    paths.
+    """A file names others outside its folder, to which the user has not agreed.
+    files: their paths.
     """
 
     def __init__(self, source: str, files: tuple[Path, ...]) -> None:

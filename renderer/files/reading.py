@@ -34,7 +34,7 @@ def path_of(source: str | Path, field: str) -> Path:
 
 
 def full_path(path: str | Path) -> Path:
-    """Return a file's absolute path without `..`, so that its parts show what is below its folder.
+    """Return a file's absolute path without `..`, so that its parts show its folders.
 
     Links stay, except for those that a `..` leads through.
     """

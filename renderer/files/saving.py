@@ -195,8 +195,8 @@ def light_table(light: PointLight | DirectionalLight) -> dict[str, Any]:
 
 
 def relocated(tables: dict[str, Any], old: Path, new: Path | None) -> dict[str, Any]:
-    """Return a scene file's tables with their paths relative to another folder, or absolute if
-    it is None.
+    """Return a scene file's tables with their paths relative to another folder, or absolute if it
+    is None.
     """
     if new == old:
         return tables

@@ -75,8 +75,8 @@ def scene_from_toml(text: str, folder: Path, source: str = "", name: str = "") -
 def scene_from_tables(
     tables: dict[str, Any], folder: Path, name: str = "", text: str = ""
 ) -> Scene:
-    """Return the scene of a scene file's tables. text: the file's; "" for tables in another
-    file.
+    """Return the scene of a scene file's tables.
+    text: the file's; "" for tables in another file.
     """
     keys = _keys_of(tables, "objects", ()), _keys_of(tables, "lights", framing.LIGHTS)
     return _scene(Origin("", tables, folder), keys, name, SavedFile(None, text, tables, keys))

@@ -99,10 +99,10 @@ class TextureTable(StrictTable):
 
 
 class MetalTable(StrictTable):
-    """metal = { file, metalness, roughness }, or the file alone: an image of the metalness
-    (blue, as in glTF) and the roughness (green). A metal's highlight has the texture's colour. The
-    image covers the same area as a texture. metalness, roughness: factors of these values; without
-    a file, the values everywhere.
+    """metal = { file, metalness, roughness }, or the file alone: an image of the metalness (blue,
+    as in glTF) and the roughness (green). A metal's highlight has the texture's colour. The image
+    covers the same area as a texture. metalness, roughness: factors of these values; without a
+    file, the values everywhere.
     """
 
     file: str = ""

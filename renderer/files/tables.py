@@ -147,7 +147,7 @@ def _types_at(kind: Any, path: str) -> list[Any]:
 
 
 def _chosen(kind: Any, value: Any) -> Any:
-    """Return the structure of a tagged union that a table chooses; otherwise the same type."""
+    """Return the structure in a tagged union that fits a table; otherwise the same type."""
     for struct in _structs(_parts(kind)):
         config = struct.__struct_config__
         if isinstance(value, dict) and config.tag and value.get(config.tag_field) == config.tag:

@@ -1,4 +1,4 @@
-"""View files, VIEW.toml, and [camera] tables: a camera written down exactly."""
+"""View files, VIEW.toml, and [camera] tables, which store a camera exactly."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .tables import VERSION, parse_toml, to_struct
 from .toml_writing import toml_text
 
 _CAMERA = ("eye", "u", "v", "w", "distance", "viewport", "projection", "near", "far")
-LOOK_AT = {"target", "up", "fov_y_deg", "aspect"}  # fields that give LookAtFields away
+LOOK_AT = {"target", "up", "fov_y_deg", "aspect"}  # fields that identify LookAtFields
 
 
 def load_view(path: str | Path) -> View:
@@ -43,7 +43,7 @@ def view_to_toml(view: View) -> str:
 
 
 def view_table(view: View) -> dict[str, Any]:
-    """Return a view as a [camera] table in which nothing is left to a default."""
+    """Return a view as a [camera] table that includes default values."""
     table: dict[str, Any] = {}
     for name in _CAMERA:
         value = getattr(view.camera, name)
@@ -73,8 +73,8 @@ def looks_at(table: dict[str, Any]) -> bool:
 def view_from_table(table: dict[str, Any], is_fitted: bool = True) -> View:
     """Return the view of a scene file's [camera]: a view file's fields, or eye and target.
 
-    It fits each image's aspect ratio unless it says `fit = false` or has a viewport; is_fitted:
-    False for a view file, whose fields say `fit = true` for that.
+    It fits each image's aspect ratio unless it has `fit = false` or a viewport. is_fitted: False
+    for a view file, whose fields need `fit = true` for that.
     """
     with under("camera"):
         if not looks_at(table):
@@ -84,9 +84,7 @@ def view_from_table(table: dict[str, Any], is_fitted: bool = True) -> View:
             return View(Camera(**plain, lens=_lens(fields.lens)), fit)
         for name in ("u", "v", "w", "viewport"):
             if name in table:
-                raise not_together(
-                    name, "target, up, fov_y_deg or aspect", "give one or the others"
-                )
+                raise not_together(name, "target, up, fov_y_deg or aspect", "give either form")
         look: LookAtFields = to_struct(table, LookAtFields)
         camera = Camera.look_at(
             look.eye,

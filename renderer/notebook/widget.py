@@ -1,4 +1,4 @@
-"""The live widget: the browser asks for an image, and the kernel answers.
+"""The live widget: the browser requests images, and the kernel sends them.
 
 The browser sends the user's actions since its last request, and has at most two requests open.
 Therefore nothing queues up while a cell runs or an image takes long. The browser repeats its
@@ -280,7 +280,7 @@ class Explorer(anywidget.AnyWidget):
 
     def _trace(self, factor: int, patience_s: float | None) -> bool:
         """Trace the present camera's image, `factor` times coarser. Return False if that takes
-        longer than patience_s seconds; the next call then goes on waiting.
+        longer than patience_s seconds; the next call then continues to wait.
         """
         wanted = (self.camera, factor)
         if self._latest_of in (wanted, (self.camera, 1)):

@@ -1,4 +1,4 @@
-"""Thousands of points and lines, drawn at their places into a picture of their own.
+"""Thousands of points and lines, drawn at their places into a separate picture.
 
 Their buffers are written only once. Hidden parts are determined when the picture, which has depths,
 is composited over another one (overlay.py).
@@ -59,7 +59,7 @@ class CloudPicture:
 
 
 class CloudRenderer:
-    """A renderer of one cloud in a context, which must be current. Raises LucidaError."""
+    """A renderer of one cloud in a context that must be current. Raises LucidaError."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._gl = context
@@ -113,7 +113,7 @@ class CloudRenderer:
         scale = (look.near, look.far - look.near) if look.is_parallel else (1 / look.near,) * 2
         s_of_depth = scale if look.is_parallel else (scale[0], -scale[1])
         shared: dict[str, Any] = {
-            # OpenGL's matrices are column-major: NumPy's transposed.
+            # OpenGL's matrices are column-major, so transpose NumPy's.
             "screen_from_cloud": tuple(look.screen_from_cloud.T.ravel().tolist()),
             "perspective": float(not look.is_parallel),
             "near": look.near,

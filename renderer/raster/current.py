@@ -1,6 +1,6 @@
-"""The thread's current OpenGL context: unbound temporarily, and restored.
+"""Unbind the thread's current OpenGL context temporarily, and restore it.
 
-It is found by the functions of EGL, GLX and OSMesa that return their current contexts.
+The functions of EGL, GLX and OSMesa that return their current contexts find it.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ OSMESA_NAMES = (
     "libOSMesa.so",
     "osmesa.dll",
     "libOSMesa.dll",
-    # With their folders: macOS also searches the current folder for a bare name.
+    # Full paths, because macOS also searches the current folder for a bare name.
     "/opt/homebrew/lib/libOSMesa.8.dylib",
     "/opt/homebrew/lib/libOSMesa.dylib",
     "/usr/local/lib/libOSMesa.8.dylib",
@@ -36,9 +36,9 @@ _OSMESA_TYPE = 0x23
 def nothing_current() -> Iterator[None]:
     """Unbind another context (a window's, say) from this thread, and restore it afterwards.
 
-    EGL, GLX and OSMesa share Mesa's dispatch table, but do not know of each other. If a context of
-    one library is still current while another's is made current, it stays broken, since its library
-    sees no reason to bind it again. OSMesa also mistakes it for its own.
+    EGL, GLX and OSMesa share Mesa's dispatch table, but are unaware of each other. A context that
+    is current in one library when another makes its own current stays broken, because its library
+    sees no need to bind it again. OSMesa also mistakes it for its own.
     """
     with contextlib.ExitStack() as stack:
         for unbind in (_unbind_glx, _unbind_egl, _unbind_osmesa):
@@ -47,7 +47,7 @@ def nothing_current() -> Iterator[None]:
         yield
 
 
-# Each unbinds a library's current context. They return how to restore it; None if there is none.
+# Each unbinds a library's current context, and returns a function to restore it, or None.
 
 
 def _unbind_egl() -> Callable[[], Any] | None:
@@ -101,7 +101,7 @@ def load_egl() -> Any:
 @cache
 def _glx() -> Any:
     glx = _linux_library("GL")
-    if not hasattr(glx, "glXMakeContextCurrent"):  # also if there is no library
+    if not hasattr(glx, "glXMakeContextCurrent"):  # also without a library
         return None
     drawable = ctypes.c_ulong
     _declare(glx, _POINTER, None, "glXGetCurrentContext", "glXGetCurrentDisplay")
@@ -136,7 +136,7 @@ _POINTER, _INT = ctypes.c_void_p, ctypes.c_int
 
 
 def _declare(library: Any, result: Any, arguments: Any, *names: str) -> None:
-    """Set the types of functions' results and arguments; None: of no arguments."""
+    """Set the types of functions' results and arguments. arguments: None for none."""
     for name in names:
         function = getattr(library, name)
         function.restype, function.argtypes = result, arguments
@@ -149,7 +149,7 @@ def found_library(name: str) -> str | None:
     """
     is_linux = sys.platform.startswith("linux")
     if is_linux and (usual := _loaded(f"lib{name}.so.1")) is not None:
-        return usual  # Linux's usual name: find_library() would start programs
+        return usual  # Linux's usual name avoids find_library(), which starts programs
 
     from ctypes.util import find_library
 

@@ -56,8 +56,7 @@ class DepthRange:
         return self._asked
 
     def numbers(self) -> tuple[float, float] | None:
-        """Return the last range, nearest and farthest; None if nothing was hit or
-        measured.
+        """Return the last range, nearest and farthest; None if nothing was hit or measured.
 
         Call this a frame later: immediately, it would wait for the GPU.
         """

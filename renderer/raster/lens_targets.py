@@ -22,7 +22,7 @@ class Lookup(NamedTuple):
 
 
 class LensTargets:
-    """The textures of a lens's images. context: must be current."""
+    """The textures of a lens's images, in a context that must be current."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context

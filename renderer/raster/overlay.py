@@ -159,8 +159,8 @@ class Overlay:
         from gather(). plane, picture: the picture to place in the scene, as display values. A plane
         without a picture hides nothing. unit_px: the unit of dashes and edges. number: a value that
         differs whenever the scene's picture differs; None if unknown. cloud: of this size, by the
-        same camera; below the layers. moves: the placed picture may have jagged edges, to be
-        drawn faster.
+        same camera; below the layers. moves: the placed picture may have jagged edges, to be drawn
+        faster.
         """
         gl = self._gl
         drawn, framebuffer = self._targets["shown"].of_size(size)
@@ -172,7 +172,7 @@ class Overlay:
             "has_plane": has_plane,
         }
         if plane is not None:
-            # OpenGL's matrices are column-major: NumPy's transposed.
+            # OpenGL's matrices are column-major, so transpose NumPy's.
             shared["plane_from_screen"] = tuple(plane.from_screen.T.ravel().tolist())
             shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())

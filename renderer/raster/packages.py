@@ -7,17 +7,15 @@ from importlib.util import find_spec
 
 
 def installing(packages: str) -> str:
-    """Return the command that installs packages for this interpreter, wherever it is from: pip, uv
-    or pipx.
-    """
-    if find_spec("pip") is None:  # as uv makes environments
+    """Return the command that installs packages for this interpreter, from pip, uv or pipx."""
+    if find_spec("pip") is None:  # as in uv's environments
         return f"uv pip install --python {sys.executable} {packages}"
     return f"{sys.executable} -m pip install {packages}"
 
 
 SYSTEMS = ("debian", "fedora", "arch", "macos", "windows", "other")
 
-_GONE = "Mesa 25.1 and later have no OSMesa: nothing to install, EGL takes its place"
+_GONE = "Mesa 25.1 and later have no OSMesa: EGL takes its place"
 _DRIVER = "update the graphics driver (OpenGL 3.3)"
 
 _REMEDIES = {
@@ -29,7 +27,7 @@ _REMEDIES = {
     },
     "default": {"other": _DRIVER},
     "osmesa": {
-        "debian": "apt-get install libosmesa6, where the release has it; else EGL takes its place",
+        "debian": "apt-get install libosmesa6, if the release has it; or else use EGL",
         "fedora": "dnf install mesa-libOSMesa (in newer releases: mesa-compat-libOSMesa)",
         "other": _GONE,
     },
@@ -64,7 +62,7 @@ def remedy(part: str, system: str = "") -> str:
 
 
 def this_system() -> str:
-    """Return one of SYSTEMS; Ubuntu, Mint and others count as the system they are derived from."""
+    """Return one of SYSTEMS; Ubuntu, Mint and others count as the system they derive from."""
     if sys.platform in ("darwin", "win32"):
         return {"darwin": "macos", "win32": "windows"}[sys.platform]
     import platform

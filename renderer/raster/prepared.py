@@ -54,8 +54,8 @@ class Prepared(NamedTuple):
 def prepare(scene: Scene, known: tuple[Scene, Prepared] | None = None) -> Prepared:
     """Prepare a scene for Rasterizer(), or set_scene().
 
-    known: an earlier scene and its result, whose common parts are reused. Raises
-    LucidaError (see flatten).
+    known: an earlier scene and its result, whose common parts are reused. Raises LucidaError (see
+    flatten).
     """
     check_scene(scene)
     if known is None:

@@ -9,10 +9,10 @@ affine in the point. Pixel centres are exact in float32 in these coordinates.
 
 float32 has 7 digits, so nothing large may cancel on the GPU. Each object therefore has an anchor,
 the point of its bounding box nearest to the eye. Vertices are in their object's space, and only
-their difference from the anchor is used. Lights, which belong to no object, are relative
-to the scene's point nearest to the eye (near_point). A triangle's plane intersects a ray at t
-(parallel) or 1/t (perspective) that is affine in x and y: the three coefficients are computed here,
-where N.(a - eye) may cancel without harm.
+their difference from the anchor is used. Lights, which belong to no object, are relative to the
+scene's point nearest to the eye (near_point). A triangle's plane intersects a ray at t (parallel)
+or 1/t (perspective) that is affine in x and y. The three coefficients are computed here, where
+N.(a - eye) may cancel without harm.
 """
 
 from __future__ import annotations
@@ -209,7 +209,7 @@ def triangle_rows(
 ) -> None:
     """Store the coefficients (c0, c1, c2) of triangles in out, float32 (m, 3).
 
-    Starts at triangle `first`, and fills all of out. bases: from plane_bases().
+    They start at triangle `first`, and fill all of out. bases: from plane_bases().
 
     t (parallel) or 1/t (perspective) of the ray of pixel (x, y) is c0 * x + c1 * y + c2. A triangle
     that is edge-on, degenerate, or shows an invisible back gets (0, 0, -1), which is behind the
@@ -277,9 +277,9 @@ def light_rows(flat: FlatScene, space: ImageSpace) -> NDArray[np.float32]:
 def sphere_rows(flat: FlatScene, space: ImageSpace, objects: NDArray) -> NDArray[np.float32]:
     """Return rows (spheres, SPHERE_TEXELS, 4).
 
-    Centre in image coordinates, radius | from the centre to the origin of the ray through the
-    image's centre, |that|^2 - radius^2 | from the object's anchor to the centre, the object's
-    number. objects: from object_rows().
+    The texels are: centre in image coordinates, radius | c, from the centre to the origin of the
+    ray through the image's centre, |c|^2 - radius^2 | from the object's anchor to the centre, the
+    object's number. objects: from object_rows().
     """
     rows = np.zeros((len(flat.spheres), SPHERE_TEXELS, 4), np.float32)
     to_center, radius = flat.spheres[:, :3] - space.eye, flat.spheres[:, 3]

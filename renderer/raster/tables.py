@@ -38,7 +38,7 @@ class Table:
                 f"({largest} a side)",
                 "simplify the model, or use --renderer ray",
             )
-        # Pad the last row: a texture is written as a rectangle.
+        # Pad the last row, because a texture is written as a rectangle.
         self.texels = np.zeros((rows * TABLE_WIDTH, components), array.dtype)
         self.texture = new_texture(context, (TABLE_WIDTH, rows), components, array.dtype)
         self.write(array)

@@ -48,7 +48,7 @@ def length(field: str, value: float, least: float, remedy: str) -> float:
 
 
 def parse_color(name: str, value: str | Iterable[float]) -> Color:
-    """Return a colour as linear light: [red, green, blue] as it is, or "#rrggbb", which is sRGB."""
+    """Return a colour as linear light: [red, green, blue] unchanged, or an sRGB "#rrggbb"."""
     if not isinstance(value, str):
         return color(name, value)
     match = _HEX.fullmatch(value)

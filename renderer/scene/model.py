@@ -34,7 +34,7 @@ PLAIN = Material()
 
 
 def _shown(name: str) -> str:
-    """Return a name that windows, terminals and files can show, whatever file it comes from."""
+    """Return a name that windows, terminals and files can show, from any file."""
     return name if name.isalnum() and len(name) < 80 else shortened(one_line(name), LONGEST_NAME)
 
 
@@ -98,7 +98,7 @@ class Mesh:
     """Triangles. vertices: float32 (n, 3). faces: int32 (m, 3), indices of vertices, m >= 1.
 
     normals: float32 (n, 3), unit, per vertex, or None for flat faces; a row of 0 makes the faces
-    at that vertex flat there. colors: float32 (n, 3), linear, multiply the material's diffuse.
+    flat at that vertex. colors: float32 (n, 3), linear, multiply the material's diffuse.
     uv: float32 (n, 2), texture coordinates of the vertices (texture.py), or None.
     transform: float64 (4, 4), world_from_object, affine and invertible. Arrays are read-only.
     """
@@ -114,7 +114,7 @@ class Mesh:
         vertices = _array("vertices", self.vertices, np.float32, (None, 3))
         if not len(vertices):
             raise LucidaError("vertices", "is empty", "give a mesh with at least one triangle")
-        if not (np.abs(vertices) <= LARGEST).all():  # False for NaN too
+        if not (np.abs(vertices) <= LARGEST).all():  # False for NaN, too
             raise LucidaError("vertices", "holds NaN or infinity", "repair the mesh")
         faces = np.asarray(self.faces)
         if faces.ndim == 2 and len(faces) and (faces.min() < 0 or faces.max() >= len(vertices)):
@@ -155,7 +155,7 @@ def _checked_transform(value: ArrayLike) -> NDArray[np.float64]:
 
 
 def is_flat(linear: NDArray[np.float64]) -> bool:
-    """Return True if a matrix (3, 3) is singular or nearly so: it flattens a shape."""
+    """Return True if a matrix (3, 3) is singular or nearly so, and would flatten a shape."""
     most = np.maximum(np.abs(linear).max(axis=0), 1e-300)  # so that no square leaves float64
     lengths = most * np.linalg.norm(linear / most, axis=0)
     return not ((lengths > 1e-12).all() and abs(volume(*(linear / lengths).T)) > 1e-9)
@@ -186,16 +186,16 @@ class SceneObject:
         if image is not None and isinstance(self.shape, Mesh) and self.shape.uv is None:
             raise LucidaError(
                 "material",
-                "has a texture, and the mesh no texture coordinates",
+                "has a texture, but the mesh has no texture coordinates",
                 "give another material, or a mesh with coordinates",
             )
 
 
 @dataclass(frozen=True)
 class View:
-    """A camera, and whether its viewport follows the image's aspect ratio.
+    """A camera whose viewport may follow the image's aspect ratio.
 
-    given: a camera, and (width, height) of the image that it was given for.
+    given: a camera, and (width, height) of its own image.
     """
 
     camera: Camera
@@ -209,13 +209,13 @@ class View:
 
     @property
     def own_size(self) -> tuple[int, int] | None:
-        """Return the size of the image that this very camera was given for, if there is one."""
+        """Return the size of this camera's own image, or None."""
         return self.given[1] if self.given is not None and self.given[0] == self.camera else None
 
     def for_size(self, size: tuple[int, int]) -> Camera:
         """Return the camera that draws an image of (width, height).
 
-        The pixels of a camera that was given for an image of its own keep their shape.
+        The pixels of a camera with its own image keep their shape.
         """
         if self.fit:
             return self.camera.fitted(size)
@@ -240,10 +240,10 @@ class NamedView:
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Objects in the order of their ids, lights, and a view to begin with.
+    """Objects in the order of their ids, lights, and an initial view.
 
-    origin: None for a scene that was made in Python. views: other views of its file, such as a glTF
-    file's cameras. notes: a line for everything in its files that is not shown.
+    origin: None for a scene made in Python. views: other views of its file, such as a glTF file's
+    cameras. notes: a line for each thing in its files that is not shown.
     """
 
     objects: tuple[SceneObject, ...]

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 Ints = NDArray[np.int64]
 Floats32 = NDArray[np.float32]
 
-CREASE_DEG = 40.0  # an edge across which the faces turn by more than this is seen as an edge
+CREASE_DEG = 40.0  # an edge with a larger angle between its faces stays sharp
 
 
 def merge_positions(vertices: Floats32) -> Ints:
-    """Return for each vertex (n, 3) the first vertex at exactly the same position: int64 (n,)."""
+    """Return the first vertex at exactly the same position for each vertex (n, 3): int64 (n,)."""
     bits = (vertices + np.float32(0)).view(np.uint32).astype(np.uint64)  # + 0 makes -0 into 0
     xy = bits[:, 0] << np.uint64(32) | bits[:, 1]
-    order = np.lexsort((bits[:, 2], xy))  # stable: the first of equals stays first
+    order = np.lexsort((bits[:, 2], xy))  # stable, so that the first of equals stays first
     xy, z = xy[order], bits[order, 2]
     starts = np.concatenate([[True], (xy[1:] != xy[:-1]) | (z[1:] != z[:-1])])
     first = order[starts][np.cumsum(starts) - 1]
@@ -27,7 +27,7 @@ def merge_positions(vertices: Floats32) -> Ints:
 
 
 def face_normals(vertices: Floats32, faces: Ints) -> NDArray[np.float64]:
-    """Return cross(b - a, c - a) of each face (m, 3): its normal, twice its area long."""
+    """Return cross(b - a, c - a) of each face (m, 3): its normal, with twice its area as length."""
     a, b, c = (vertices[faces[:, corner]].astype(np.float64) for corner in range(3))
     return np.cross(b - a, c - a)
 
@@ -40,10 +40,11 @@ def smooth_normals(
 ) -> tuple[Ints, Ints, Floats32]:
     """Return normals that are smooth except across creases.
 
-    vertices (n, 3); faces (m, 3), of one winding where they should join, none of area 0. Vertices
-    in one position share their normals. Returns (source, faces, normals): the new vertex k is a
-    copy of vertex source[k], with the unit normal normals[k]; a vertex on a crease has several
-    copies. Vertices in one position become one, unless keep_apart: they may differ in colour.
+    vertices (n, 3); faces (m, 3), none of area 0, with consistent winding if they should join.
+    Vertices in one position share their normals. Returns (source, faces, normals): the new vertex k
+    is a copy of vertex source[k], with the unit normal normals[k]; a vertex on a crease has several
+    copies. Vertices in one position become one, unless keep_apart, because they may differ in
+    colour.
     merged: the result of merge_positions(), if known.
     Corners are weighted by their angle, after Thürmer and Wüthrich 1998,
     "Computing vertex normals from polygonal facets".
@@ -80,7 +81,7 @@ def smooth_normals(
 def _smooth_corners(
     faces: Ints, normals: NDArray[np.float64], vertex_count: int
 ) -> tuple[Ints, Ints]:
-    """Return pairs of corners that share a normal: those at both ends of each edge that is no
+    """Return pairs of corners that share a normal: those at both ends of each edge that is not a
     crease.
 
     Corner k of face f has the number 3 f + k, and so has the edge that begins there.
@@ -100,10 +101,10 @@ def _smooth_corners(
 
 
 def components(count: int, a: Ints, b: Ints) -> Ints:
-    """Return the connected components of a graph with edges a[k] - b[k]: for each node the smallest
-    member.
+    """Return the smallest member of each node's connected component, in a graph with edges a[k] -
+    b[k].
 
-    Hooking and pointer jumping, after Shiloach and Vishkin 1982.
+    The method is hooking and pointer jumping, after Shiloach and Vishkin 1982.
     """
     parent = np.arange(count)
     while len(a):

@@ -39,8 +39,8 @@ def world_corners(flat: FlatScene, triangles: NDArray[np.integer]) -> F64:
 
 
 def near_point(flat: FlatScene, eye: ArrayLike) -> F64:
-    """Return the point (3,) of the scene's bounds that is nearest to the eye. float32 numbers
-    that belong to no object, such as lights and hits, are relative to it.
+    """Return the point (3,) of the scene's bounds that is nearest to the eye. float32 numbers that
+    belong to no object, such as lights and hits, are relative to it.
     """
     point: F64 = np.clip(np.asarray(eye, np.float64), *flat.bounds)
     return point

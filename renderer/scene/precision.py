@@ -1,6 +1,6 @@
 """The limits of float32: cameras too narrow or too wide to be drawn correctly.
 
-Pure. Checked before a picture is drawn or compared, to refuse it in one line.
+Pure. The check runs before a picture is drawn or compared, and rejects it in one line.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from lucida.renderer.system.errors import LucidaError
 from .boxes import corners_of
 from .flat import FlatScene
 
-# GL clips in float32: an edge made by clipping has an error of 2^-24 of the clipped length, and is
-# 1024 pixels outside the image (MARGIN, renderer/raster/scene_data.py).
+# GL clips in float32. An edge made by clipping is 1024 pixels outside the image (MARGIN,
+# renderer/raster/scene_data.py), and has an error of 2^-24 of the clipped length.
 LARGEST_PX = 2.0**34
-# A point far off the axis has an error of 2^-24 of its distance, also along the axis: relative to
-# its depth, that times the tangent of its angle to the axis.
+# A point far off the axis has an error of 2^-24 of its distance, also along the axis. Relative to
+# its depth, the error grows with the tangent of its angle to the axis.
 LARGEST_TANGENT = 2.0**12
 _BITS = "for the 24 bits of float32, in which images are drawn"
 
@@ -50,4 +50,4 @@ def check_precision(camera: Camera, size: Size, flat: Callable[[], FlatScene]) -
     if reach / pixel > LARGEST_PX:
         problem = f"sees so little that the scene is {reach / pixel:.2g} pixels large, too many"
         times = f"{reach / pixel / LARGEST_PX:.2g}"
-        raise LucidaError("camera", f"{problem} {_BITS}", f"let it see {times} times as much")
+        raise LucidaError("camera", f"{problem} {_BITS}", f"enlarge its view {times} times")

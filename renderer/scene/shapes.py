@@ -1,7 +1,7 @@
 """Procedural meshes: box, rectangle, disk, cylinder, cone, torus; and transforms of a mesh.
 
 All are centred on the origin of their own space, with y up and counter-clockwise faces seen from
-outside. Vertices that are doubled because of their normals have exactly the same position, so that
+outside. Vertices that are duplicated for their normals have exactly the same position, so that
 closed shapes have no gaps.
 """
 
@@ -56,8 +56,8 @@ def disk(radius: float = 0.5, segments: int = 64) -> Mesh:
 def cylinder(
     radius: float = 0.5, height: float = 1.0, segments: int = 64, smooth: bool = True
 ) -> Mesh:
-    """Return a closed cylinder about the y axis. smooth: its side has smooth normals, its caps flat
-    ones.
+    """Return a closed cylinder about the y axis. smooth: its side has smooth normals; its caps stay
+    flat.
     """
     circle = _circle(_count("segments", segments))
     rim, half = _length("radius", radius) * circle, _length("height", height) / 2
@@ -76,7 +76,7 @@ def cone(radius: float = 0.5, height: float = 1.0, segments: int = 64, smooth: b
         _length("height", height) / 2,
     )
     base = np.insert(rim, 1, -half, axis=1)
-    # The tip is doubled, each copy with the normal of the middle of its segment.
+    # The tip is duplicated; each copy has the normal of the middle of its segment.
     tips = np.tile([0.0, half, 0.0], (segments, 1))
     slope = np.array([height, radius]) / math.hypot(height, radius)
     at_base = np.insert(_circle(segments) * slope[0], 1, slope[1], axis=1)
@@ -131,7 +131,7 @@ def placement(
     """
     matrix = np.eye(4)
     for axis, angle in enumerate(vector("rotate_deg", rotate_deg)):
-        # Angles repeat: reduced first, so that a huge one loses nothing in the sine.
+        # Angles repeat, so reduce them first, which keeps a huge one's digits.
         turn = math.radians(math.remainder(angle, 360))
         c, s = _exact(math.cos(turn)), _exact(math.sin(turn))
         rotation = np.eye(4)

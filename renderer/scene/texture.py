@@ -43,9 +43,9 @@ class Texture:
     """An image on a surface. texels: uint8 (height, width, 3), sRGB, row 0 at the top; or (height,
     width, 4) with opacity, which only cutouts use; read-only.
 
-    wrap: along u and v, of WRAPS. scale, offset, rotate_deg: the lookup is at
-    scale * (u, v), turned counter-clockwise by rotate_deg, + offset. file: the image file; None for
-    an image that was made, or is inside another file.
+    wrap: along u and v, of WRAPS. scale, offset, rotate_deg: the lookup is at scale * (u, v),
+    turned counter-clockwise by rotate_deg, + offset. file: the image file; None for an image that
+    was made, or is inside another file.
     """
 
     texels: NDArray[np.uint8] = field(repr=False)

@@ -100,8 +100,9 @@ def end_child(process: subprocess.Popen[bytes]) -> int:
 
 
 def main(module: str, *arguments: str) -> None:
-    """Run a child of start_child(). Watch the parent first, because it may end during the
-    imports.
+    """Run a child of start_child().
+
+    Watch the parent first, because it may end during the imports.
     """
     if sys.platform != "win32":
         end_with_parent()

@@ -1,4 +1,4 @@
-"""One image in progress: requested, traced, finished or cancelled.
+"""An image in progress, from the request to its end or cancellation.
 
 Access to a job's state is synchronised. A control array is the only link to a running kernel: it
 reports progress and stops the kernel.
@@ -70,15 +70,13 @@ class Task:
             self.finished.set()
 
     def stop(self) -> None:
-        """Make a kernel that runs, or is about to, return after the current pixel. Takes no
-        lock.
-        """
+        """Make a running or starting kernel return after the current pixel, without a lock."""
         cancel(self._control)
 
     def cancel(self) -> None:
         """End a waiting task at once, and stop a running one."""
         self.stop()
-        if self.finished.is_set():  # frame() may hold the lock, long for a large image
+        if self.finished.is_set():  # frame() may hold the lock for long
             return
         with self._lock:
             if not self._tracing:
@@ -122,9 +120,7 @@ class TraceJob:
 
     @property
     def progress(self) -> float:
-        """The finished part of the image, 0 to 1; never decreases. Also 1 once cancelled or
-        failed.
-        """
+        """The finished part of the image, 0 to 1, which never decreases; 1 after failure, too."""
         return self._task.progress
 
     @property
@@ -133,7 +129,7 @@ class TraceJob:
         return self._task.finished.is_set()
 
     def cancel(self) -> None:
-        """Ask the job to end, and return at once; done follows within milliseconds."""
+        """Request the job's end, and return at once; done follows within milliseconds."""
         self._task.cancel()
 
     def wait(self, timeout_s: float | None = None) -> bool:

@@ -1,8 +1,8 @@
 """Compilation of the tracer's parts by other processes, into the cache of machine code.
 
 numba compiles one function at a time, and holds the GIL meanwhile. Other processes compile
-concurrently, and a window's loop goes on. Needs no numba. Nothing depends on these processes: a
-part that is not in the cache afterwards is compiled in this process.
+concurrently, while a window's loop continues. This module does not need numba. Nothing depends on
+these processes, because a part that is still missing from the cache is compiled in this process.
 """
 
 from __future__ import annotations
@@ -22,11 +22,11 @@ _POLL_S = 0.01
 
 
 def precompile(parts: Sequence[str], is_closed: Callable[[], bool]) -> None:
-    """Compile the parts that are not in the cache: one process for all if it can fork, otherwise
-    one for each. Return when all have ended, or is_closed() returns True.
+    """Compile the parts that are not in the cache, in one process for all if it can fork, or else
+    in one for each. Return when all have ended, or is_closed() returns True.
 
-    Starts none if they would be useless or impossible: no cache folder, a single processor, or an
-    executable that is not the Python interpreter.
+    No process is started without a cache folder, on a single processor, or if the executable is not
+    the Python interpreter.
     """
     folder, python = cache_folder(), interpreter()
     missing = [p for p in parts if folder is None or not (folder / f"{p}.done").exists()]
@@ -40,7 +40,7 @@ def precompile(parts: Sequence[str], is_closed: Callable[[], bool]) -> None:
         for group in [missing] if compile_child.can_fork() else [[part] for part in missing]:
             with contextlib.suppress(OSError):
                 processes.append((start_child(python, compile_child.__name__, *group), group))
-        compile_child.import_compiler()  # what loading needs, meanwhile
+        compile_child.import_compiler()  # import the modules for loading meanwhile
         while any(process.poll() is None for process, _ in processes) and not is_closed():
             done = sum((folder / f"{part}.done").exists() for part in missing)
             compile_note.report(done, len(missing))

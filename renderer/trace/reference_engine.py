@@ -1,6 +1,6 @@
-"""A scene prepared for the simple method: one ray after another, in float64.
+"""A scene prepared for the simple method, which traces one ray after another in float64.
 
-Same interface as tiles/engine.py.
+The interface is that of tiles/engine.py.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The ray tracer: draws scenes in image order, on all processors.
+"""The ray tracer, which draws scenes in image order, on all processors.
 
-This is the user's interface: images traced at once, or in the background. worker.py does the work.
+This is the user's interface, for images at once or in the background. worker.py does the work.
 """
 
 from __future__ import annotations
@@ -41,9 +41,9 @@ class Tracer:
     "packets" traces squares of pixels together, in float32 and with SIMD. "reference" traces one
     ray after another, in float64, tens of times slower, with code that reads like the lecture.
     shadows: objects cast shadows. mirror_depth: the number of reflections of a viewing ray, by the
-    materials' specular colours. Both are off by default, so that the two renderers agree: only ray
-    tracing has them. They need method "packets". The first image takes longer: the scene is
-    prepared, and once per installation the kernels are compiled, which takes some seconds. Several
+    materials' specular colours. Both are off by default, so that the two renderers agree, because
+    only ray tracing has them. They need method "packets". The first image takes longer, because the
+    scene is prepared and, once per installation, the kernels are compiled in some seconds. Several
     Tracers may work at once; one Tracer's jobs run one after another, in the order of their start.
     Thread-safe. Raises LucidaError if `scene` is not a Scene, for an invalid number of threads or
     bounces, and for an unknown method.
@@ -87,11 +87,11 @@ class Tracer:
         """Set the scene of the images started from now on.
 
         If only transforms, materials and lights differ from the last scene, only these are prepared
-        again, in milliseconds. Meshes are the same if their arrays are, as after
+        again, in milliseconds. Meshes are the same if they share their arrays, as after
         dataclasses.replace(mesh, transform=...).
         """
         scene = check_scene(scene)
-        self._scenes += 1  # first, so that an unchanged number means an unchanged scene
+        self._scenes += 1  # before the change, so that an equal number means an equal scene
         self._scene = scene
 
     def render(
@@ -106,8 +106,8 @@ class Tracer:
         """Trace an image of (width, height) pixels. Return it when it is complete.
 
         channels: see Frame. samples: rays per pixel for the colour, 1, 4, 9 ... 64 (samples.py).
-        progress: called from this thread with the finished part, rising from 0 to 1. An exception
-        meanwhile, from progress or a KeyboardInterrupt, cancels the work and is passed on. rows:
+        progress: called on this thread with the finished part, rising from 0 to 1. An exception in
+        it, or a KeyboardInterrupt, cancels the work and is passed on. rows:
         return only rows[0] up to, not including, rows[1], of an image that may be too large for
         memory; their bits are those of the whole image if rows[0] is a multiple of 32. Raises
         LucidaError for invalid cameras, channels, sizes, samples and rows.
@@ -126,7 +126,7 @@ class Tracer:
     ) -> TraceJob:
         """Start an image in the background and return at once; arguments as in render().
 
-        Jobs started earlier come first: cancel those that are no longer wanted.
+        Earlier jobs come first, so cancel those that are no longer needed.
         """
         scene = self._scene
         check_camera(camera)
@@ -156,7 +156,7 @@ class Tracer:
         """Return linear light, float32 (n, 3), along each of n rays, shaded like an image without
         shadows and mirrors; see closest_hits().
 
-        A ray that is not finite, or has no direction, sees the background.
+        A ray that is not finite, or has no direction, gets the background.
         """
         return self._batch("shaded", origins, directions, t_min, t_max)
 
@@ -172,7 +172,7 @@ class Tracer:
     def close(self) -> None:
         """Cancel all jobs and wait for the threads to end. A closed Tracer starts no more.
 
-        Takes milliseconds, unless kernels are being compiled: then it waits for the compiler.
+        This takes milliseconds, unless it must wait for the compiler.
         """
         self._worker.close()
         self._worker.join()
@@ -198,7 +198,8 @@ class Tracer:
     ) -> Frame:
         job = self.start(camera, size, channels, rows)
         try:
-            # Wait with timeouts: some platforms deliver no KeyboardInterrupt while a thread waits.
+            # Use timeouts, because some platforms deliver no KeyboardInterrupt while a thread
+            # waits.
             while not job.wait(POLL_S):
                 if progress is not None:
                     progress(job.progress)

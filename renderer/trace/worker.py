@@ -1,7 +1,7 @@
-"""A Tracer's own thread: it prepares the scene, then traces one task after another.
+"""A Tracer's own thread, which prepares the scene and then traces one task after another.
 
 The thread and its team end when the Tracer is closed or dropped, or the interpreter exits.
-Everything slow happens here: importing numba, compiling, building the BVH.
+All slow work happens on it: importing numba, compiling, building the BVH.
 """
 
 from __future__ import annotations
@@ -37,13 +37,13 @@ class Worker:
         self._effects = shadows, mirror_depth
         self._engine: Any = None
         self._prepared: Scene | None = None  # the engine's
-        self._compiled: set[str] = set()  # parts that were loaded
+        self._compiled: set[str] = set()  # loaded parts
         self.is_compiling = False
         self._queue: queue.SimpleQueue[tuple[Scene, Work] | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
         self._tasks: weakref.WeakSet[Work] = weakref.WeakSet()
         self.current: Work | None = None
-        self._newest: Scene | None = None  # of the last task
+        self._newest: Scene | None = None  # the last task's
         self._thread: threading.Thread | None = None
         self.pid = os.getpid()  # the thread's
         self._closed = False
@@ -119,7 +119,7 @@ class Worker:
         self._engine = self._prepared = None
 
     def _run(self, scene: Scene, task: Work) -> None:
-        """Compile what the task needs, prepare its scene, and do it, unless it was cancelled."""
+        """Compile the task's parts, prepare its scene, and run it, unless it was cancelled."""
         if self._closed:
             task.cancel()
         if task.finished.is_set():
@@ -133,7 +133,7 @@ class Worker:
             else:
                 self._engine.set_scene(scene)
             self._prepared = scene
-        self._team.is_over = None  # a running image is cancelled by its own control
+        self._team.is_over = None  # a running image's own control cancels it
         task.run(self._engine)
 
     def _new_engine(self, scene: Scene) -> Any:
@@ -166,7 +166,7 @@ class Worker:
             self.is_compiling = False
 
     def _is_unwanted(self, scene: Scene, task: Work) -> bool:
-        """Return True if another scene was requested since: this one need not be prepared."""
+        """Return True if another scene was requested since, so that this one is not needed."""
         return self._closed or (task.finished.is_set() and self._newest is not scene)
 
 

@@ -1,4 +1,4 @@
-"""The compare view without a window: its words, the causes' names, steps from pixel to pixel."""
+"""The compare view's texts, causes, and steps from pixel to pixel, without a window."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from lucida.app.state.options.shared import Pixel
 from lucida.renderer.compare.raster_and_ray import AGREE, CAUSES, SHADING, UNEXPLAINED, Comparison
 
 MODES: tuple[tuple[CompareMode, str, str], ...] = (
-    ("wipe", "Wipe", "The raster image left of the divider, the ray image right of it."),
+    ("wipe", "Wipe", "Shows the raster image left of the divider, and the ray image right of it."),
     (
         "absolute",
         "Difference",
-        "How much the two images differ: black is no difference. Colours are compared as display "
-        "values (sRGB, exposure 0), depths relative to the ray image's.",
+        "Shows how much the images differ; black is no difference. Colours are compared as display "
+        "values (sRGB, exposure 0), and depths relative to the ray image's.",
     ),
 )
-MARKED_MAGNIFICATION = 32.0  # from here on the pixels show their values
-STEP_FROM = 8.0  # less, and a pixel is not to be seen: then the step magnifies
+MARKED_MAGNIFICATION = 32.0  # from this magnification on, pixels show their values
+STEP_FROM = 8.0  # pixels are invisible below this, so a step magnifies
 
 
 @dataclass(frozen=True)
@@ -34,11 +34,11 @@ class Cause:
 
 
 LABELS = (
-    Cause(1, "edge", "Within 1/128 pixel is an edge, or a line where two surfaces meet."),
+    Cause(1, "edge", "There is an edge, or a line where two surfaces meet, within 1/128 pixel."),
     Cause(2, "pattern", "Within 1/128 pixel, a checker, a hole or a texture changes as much."),
     Cause(3, "clip", "Near or far cuts a surface there, or it is too near the eye for OpenGL."),
-    Cause(4, "lookup", "The texel that the pixel looked up sees past an edge, up to half a texel."),
-    Cause(SHADING, "shading", "Both see the same point, but in another colour."),
+    Cause(4, "lookup", "The texel looked up by the pixel is past an edge, by up to half a texel."),
+    Cause(SHADING, "shading", "Both show the same point, but in different colours."),
     Cause(UNEXPLAINED, "unexplained", "Nothing in the image explains it: a renderer is wrong."),
 )
 assert len(LABELS) == len(CAUSES) + 2
@@ -63,7 +63,7 @@ def headline(comparison: Comparison, effects: str = "") -> tuple[str, bool]:
 
 
 def effects_of(state: AppState) -> str:
-    """Return what only the ray image shows; empty for nothing."""
+    """Return the effects that only the ray image shows, as text; "" for none."""
     on = [name for name in ("shadows", "mirrors") if getattr(state.options, name)]
     return " and ".join(on)
 

@@ -46,5 +46,5 @@ def enlarged(labels: Bytes) -> Bytes:
             for dj in range(inset, 2 * edge + 1 - inset):
                 grown[i[chosen] + di, j[chosen] + dj] = found[chosen] if inset else RIM
     grown = grown[edge:-edge, edge:-edge]
-    grown[i, j] = found  # neighbours that are enlarged do not hide what is there
+    grown[i, j] = found  # enlarged neighbours do not hide a pixel's own label
     return grown

@@ -1,7 +1,7 @@
 """The compare view: both images in one place, as a wipe or a difference.
 
-A difference is shown only between two full images of the present state. Over the image, the mouse
-does the same as in ../pair/view.py.
+A difference is shown only between two full images of the present state. The mouse works as in
+../pair/view.py.
 """
 
 from __future__ import annotations
@@ -36,12 +36,12 @@ from .actions import COMPARING
 from .pictures import Bytes, marked_picture
 
 NAME = "Compare"
-KEY_STEP = 0.01  # of the divider, by an arrow key
-GRIP_EM = 0.6  # half the width in which the divider can be taken
-LARGE_PX = 6.0  # pixels that large are marked without enlarging them
-COMPARED = "compared"  # the two images, as they are looked at; see Pictures.picture
-SMALL_EM = 20.0  # a view that is less high shows its image alone
-MUTED = 0.6  # how dark an image is that stands in for a difference
+KEY_STEP = 0.01  # motion of the divider by an arrow key
+GRIP_EM = 0.6  # half the width in which the divider can be grabbed
+LARGE_PX = 6.0  # larger pixels are marked without enlarging them
+COMPARED = "compared"  # the visible images, see Pictures.picture
+SMALL_EM = 20.0  # a lower view shows its image alone
+MUTED = 0.6  # brightness of an image in place of a difference
 
 
 class CompareView(ImageView):
@@ -55,9 +55,9 @@ class CompareView(ImageView):
         super().__init__(view_of(views, RasterView).linked)
         self._uploads: Uploads | None = None
         self._work: Background[tuple[Comparison, Bytes]] = Background("lucida-difference")
-        self._made: tuple[Comparison, Bytes] | None = None  # the last difference, and what it is of
+        self._made: tuple[Comparison, Bytes] | None = None  # the last difference, and its source
         self._marks = Memo(marked_picture)
-        self._held: float | None = None  # where in the divider the mouse took it
+        self._held: float | None = None  # the place in the divider where the mouse grabbed it
         self.screen: Screen | None = None  # where the image is
 
     @property
@@ -142,13 +142,13 @@ class CompareView(ImageView):
 
     def _picture(self, both: Renderers, state: AppState, placement: Placement) -> Picture | None:
         """Return the visible part of the difference, or of the image left of the divider. Return
-        None if it is not there yet.
+        None if it is not ready.
         """
         options = state.options.compare
         if options.mode == "wipe":
             beside = options.divider < 1.0 and options.rise == 1.0
             if beside and both.picture(True, state, placement, COMPARED) is None:
-                return None  # without the ray image, the raster image must not be taken for it
+                return None  # the raster image must not look like the ray image
         difference = self._difference(both, state) if options.mode == "absolute" else None
         if difference is None:
             return both.picture(False, state, placement, COMPARED)
@@ -156,7 +156,7 @@ class CompareView(ImageView):
         return Picture(texture, texture)
 
     def _difference(self, both: Renderers, state: AppState) -> Bytes | None:
-        """Return the difference of the images of this state, which is made in the background."""
+        """Return the difference of this state's images, which is computed in the background."""
         verdict, made = both.verdict(state), self._made
         if verdict is None or waiting(both, state):
             return None
@@ -175,7 +175,7 @@ class CompareView(ImageView):
     # The divider.
 
     def _drag_divider(self, host: Host, screen: Screen) -> None:
-        """Handle the divider as an item of its own, before the image's, which then does not get the
+        """Handle the divider as a separate item before the image, which then does not get the
         mouse.
         """
         options = host.options.compare
@@ -226,7 +226,7 @@ class CompareView(ImageView):
 
 
 def waiting(both: Renderers, state: AppState) -> str:
-    """Return why the images cannot be compared yet; "" if they can."""
+    """Return the reason that the images cannot be compared yet, or ""."""
     image = both.ray_image
     if image is None or image.request != both.request(state):
         return both.preparing() or "The ray image is being traced: no difference yet"
@@ -240,8 +240,9 @@ def _made(comparison: Comparison, channel: str, gain: float) -> tuple[Comparison
 
 
 def _label(host: Host, screen: Screen, text: str, right: bool, end: float) -> None:
-    """Draw an image's name in its upper left or right corner. Without room for it, draw
-    nothing. end: the divider."""
+    """Draw an image's name in its upper left or right corner. Draw nothing without space for it.
+    end: the divider.
+    """
     low, high = screen.visible
     draw = imgui.get_window_draw_list()
     with lettering(host.fonts.bold):

@@ -26,16 +26,16 @@ from .marks import claim_keys, walked
 from .pane import Pane, draw_pane
 from .rulers import ruler_sizes
 
-PAUSE_S = 0.5  # turns of the wheel, or keys, closer together are one step of undo
-NARROW_CELL = 4.0  # a hovered pixel that large gets a frame in the image under the mouse too
+PAUSE_S = 0.5  # turns of the wheel, or keys, in quicker succession are one undo step
+NARROW_CELL = 4.0  # a smaller hovered pixel also gets a frame in the image under the mouse
 
 
 @dataclass
 class Linked:
     """The state that the two images share.
 
-    walked_frame: the last one in which a key has moved the mark. size: of the images, when they
-    were last drawn. guest: see app/ui/guest.py; set by itself.
+    walked_frame: the last frame in which a key has moved the mark. size: of the images when last
+    drawn. guest: see app/ui/guest.py; it sets itself.
     """
 
     mouse: ImageMouse = field(default_factory=ImageMouse)
@@ -113,9 +113,9 @@ class ImageView(Instrument):
 
     def _mouse(self, host: Host, screen: Screen, clicks: list[tuple[Pixel, bool]]) -> bool:
         """Handle the mouse and the arrow keys over the visible image. Return True if the mouse is
-        over it, and drags nothing.
+        over it without dragging.
 
-        clicks: gets those that are for the guest, until the image is drawn.
+        clicks: receives the guest's clicks, until the image is drawn.
         """
         mouse, io, (low, high) = self.linked.mouse, imgui.get_io(), screen.visible
         buttons = imgui.ButtonFlags_
@@ -156,7 +156,7 @@ class ImageView(Instrument):
         clicks: list[tuple[Pixel, bool]],
         over: bool,
     ) -> None:
-        """Draw the guest over the image, and hand it the clicks that it wants."""
+        """Draw the guest over the image, and pass it its clicks."""
         width, height = host.renderers.size
         low, high = screen.point(0, 0), screen.point(height, width)
         extent = ImVec2(high.x - low.x, high.y - low.y)
@@ -173,7 +173,7 @@ class ImageView(Instrument):
         draw.pop_clip_rect()
 
     def _before_image(self, host: Host, screen: Screen) -> None:
-        """Draw items that take the mouse before the image does."""
+        """Draw items that handle the mouse before the image."""
 
     def _on_pixels(self, host: Host, screen: Screen) -> None:
         """Draw on the image, below the grid, the marks and the legends."""
@@ -182,7 +182,7 @@ class ImageView(Instrument):
         """Draw over the image."""
 
     def _why_black(self, host: Host, screen: Screen) -> None:
-        """Draw the note on a black image, with its button if there is one that helps."""
+        """Draw the note on a black image, with the button of its remedy, if any."""
         both, state = host.renderers, host.state
         reason, verdict = both.why_black(state), both.verdict(state)
         if reason is None or verdict is None:
@@ -198,7 +198,9 @@ class ImageView(Instrument):
         """Draw above the image."""
 
     def _hovered(self, host: Host, placement: Placement) -> tuple[int, int] | None:
-        """Return the pixel to frame: always in the other image, in this one only if it is small."""
+        """Return the pixel to frame: always in the other image, but in this one only if it is
+        small.
+        """
         if host.hovered is None:
             return None
         size = host.renderers.size
@@ -213,7 +215,7 @@ class ImageView(Instrument):
         marked_size = state.options.marked_size
         is_final, shared.size = size == shared.size and not host.is_rearranging, size
         if marked_size is None and shared.anchor is None and not is_final:
-            return  # a step's mark belongs to the size that comes when the layout is done
+            return  # a step's mark belongs to the size of the final layout
         marked, shared.anchor = followed(state.marked, marked_size, shared.anchor, state.view, size)
         now_size = size if marked is not None else None
         if (marked, now_size) != (state.marked, marked_size):
@@ -222,7 +224,7 @@ class ImageView(Instrument):
             )
 
     def _walk(self, host: Host, placement: Placement) -> None:
-        """Move the mark by the arrow keys, and keep it in sight."""
+        """Move the mark by the arrow keys, and keep it visible."""
         shared, frame = self.linked, imgui.get_frame_count()
         if shared.walked_frame == frame:  # one image has the mouse, the other the keyboard
             return

@@ -1,6 +1,6 @@
-"""The pixel under the mouse, the one that the user has marked, and those of the probe's pins.
+"""The pixel under the mouse, the marked pixel, and those of the probe's pins.
 
-Owns how they look, and the keys that move the mark. Knows nothing of how pixels are drawn.
+This module has their appearance, and the keys that move the mark, but does not draw pixels.
 """
 
 from __future__ import annotations
@@ -12,11 +12,11 @@ from lucida.app.state.options.shared import Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.areas import arrow_steps, claim_arrows, pixel_from
 
-SMALLEST_FRAMED = 6  # a pixel as large as that gets a frame of its own size
-NUMBERED = 32.0  # as large, a pixel has numbers in it
-TICK = 9.0  # the lines that point at a marked pixel
+SMALLEST_FRAMED = 6  # a pixel at least this large gets a frame of its own size
+NUMBERED = 32.0  # a pixel at least this large has numbers in it
+TICK = 9.0  # length of the lines that point at a marked pixel
 LARGEST_POINTED_AT = 24.0
-CORNER = 0.32  # of a pin's frame, a side of each of its corners
+CORNER = 0.32  # length of each corner of a pin's frame, relative to a side
 _POPUP = int(imgui.WindowFlags_.popup)
 _FLOATING = int(imgui.WindowFlags_.no_docking | imgui.WindowFlags_.no_saved_settings)
 
@@ -30,11 +30,9 @@ def draw_hovered(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
 
 
 def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
-    """Draw a heavier frame. A small one gets a line towards it from each side, to be found at a
-    glance.
-    """
+    """Draw a heavier frame. A small one is easier to find by lines towards it from all sides."""
     middle, half = _middle(screen, pixel)
-    # Round numbers it is thin, and stands between them and the neighbours'.
+    # The frame is thin around numbers, to fit between them and the neighbours'.
     grow, dark, bright = (0.5, 4.0, 2.0) if min(screen.cell) >= NUMBERED else (1.5, 5.0, 2.0)
     for width, color in ((dark, theme.rgb("#000000", 0.75)), (bright, theme.MARK)):
         low, high = _square(middle, half, grow)
@@ -47,8 +45,8 @@ def draw_marked(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel) -> None:
 
 
 def draw_pin(draw: imgui.ImDrawList, screen: Screen, pixel: Pixel, number: int) -> None:
-    """Draw four corners with a number next to them, in the colour of its ray in the outside view:
-    only a mark has a whole frame. The number stays in the view.
+    """Draw four corners with a number next to them, in the colour of its ray in the outside view.
+    Only a mark has a whole frame. The number stays in the view.
     """
     middle, half = _middle(screen, pixel)
     low, high = _square(middle, half, 1.0)

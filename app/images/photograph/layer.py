@@ -1,4 +1,4 @@
-"""A photograph over an image: read on a thread, blended by ImGui. It costs nothing until used."""
+"""A photograph over an image, read on a thread and blended by ImGui. It costs nothing if unused."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ class PhotographLayer:
         self._work: Background[tuple[Asked, DecodedPhotograph]] = Background("lucida-photograph")
         self._asked: Asked | None = None
         self._path: Path | None = None
-        self._photograph: DecodedPhotograph | None = None  # of that path
+        self._photograph: DecodedPhotograph | None = None  # the photograph read last
 
     @property
     def busy(self) -> bool:
-        """True while a photograph is being read that the view still asks for."""
+        """True while a photograph that the view still needs is being read."""
         return self._asked is not None and self._work.busy
 
     def draw(self, host: Host, screen: Screen) -> None:
-        """Draw the photograph over the visible part of the image, if one is open and shown."""
+        """Draw the photograph over the visible part of the image, if one is open and visible."""
         self._uploads.begin_frame()
         options, path = host.options.photograph, path_of(host.state)
         if path is None:
@@ -52,7 +52,7 @@ class PhotographLayer:
         self._read(host, (path, pixels_of(parts, (width, height))))
         if self._photograph is None or self._path != path or not options.shown:
             return
-        # A camera from a file may have pixels that are not square: its own image's shape counts.
+        # Use the shape of the camera's own image, because its pixels may not be square.
         shape = view.own_size or pixels_of(parts, place.size)
         left, top, right, bottom = letterboxed(parts, shape, self._photograph.size)
         self._show(self._photograph.pixels, (left, top, right, bottom), screen, options.opacity)
@@ -61,7 +61,7 @@ class PhotographLayer:
         self._work.close()
 
     def _read(self, host: Host, asked: Asked) -> None:
-        """Ask for a photograph, unless it was the last one asked for, and take what was read."""
+        """Request a photograph, unless it was requested last, and take the result."""
         outcome = self._work.poll()
         if outcome is not None and outcome.error is not None:
             host.files.say(describe(outcome.error))

@@ -1,6 +1,6 @@
-"""The steps of both loops for images of a torus, counted in the lecture's two loops.
+"""The steps of the lecture's two loops, counted for images of a torus.
 
-The rays had a binary tree of boxes.
+The rays used a binary tree of boxes.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ COSTS: dict[Unit, tuple[Cost, ...]] = {
         Cost(10_000, 1_228_800, 3_005_177, 15_789_944),
     ),
 }
-GROWTH: dict[Unit, tuple[str, str]] = {  # object order's, image order's
+GROWTH: dict[Unit, tuple[str, str]] = {  # for object order, and for image order
     "triangles": (
         "Object order: triangles set up ~ triangles; pixels tested: the same.",
         "Image order: rays: the same; nodes visited ~ log triangles"

@@ -50,8 +50,8 @@ class _HandleDrag:
 
 
 class Handles:
-    """The handles of all views. problem: the reason that the dragged item does not follow, or
-    "".
+    """The handles of all views.
+    problem: the reason that the dragged item does not follow, or "".
     """
 
     def __init__(self) -> None:
@@ -87,8 +87,8 @@ class Handles:
         items: tuple[Item, ...],
         reach: float,
     ) -> Scene:
-        """Draw the handles of some items into the current window. Return the scene after
-        their motion. reach: of the scene.
+        """Draw the handles of some items into the current window. Return the scene after their
+        motion. reach: of the scene.
         """
         drag = self._drag if self._drag is not None and self._drag.view == shown.name else None
         if drag is not None and (drag.items != items or drag.latest is not scene):

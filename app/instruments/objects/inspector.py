@@ -1,7 +1,8 @@
-"""The selection in numbers: its name, shape, place, material; a light's; else the scene's own.
+"""The selection in numbers: an object's name, shape, place and material, or a light's; without a
+selection, the scene's own.
 
-Each line edits a field of the file. Takes a state and returns another. An invalid number is
-reported; the last valid one stays.
+Each line edits a field of the file. The panel takes a state and returns another. An invalid number
+is reported; the last valid one stays.
 """
 
 from __future__ import annotations
@@ -48,14 +49,14 @@ TOLD = {
     "tube_radius": "of the tube around the ring",
     "segments": "parts around",
     "sides": "parts around the tube",
-    "smooth": "normals between its faces, as of a curved surface",
+    "smooth": "interpolate normals, as on a curved surface",
     "size": "the sides along x, y and z",
     "translate": "its position, added last",
     "rotate_deg": "degrees about the world's x, then y, then z axis",
-    "scale": "factors along its own axes: first of all",
+    "scale": "factors along its own axes, applied first",
     "center": "its position",
     "position": "where the light is",
-    "direction": "where the light goes, from the light to the scene",
+    "direction": "the direction from the light to the scene",
 }
 
 
@@ -73,14 +74,14 @@ class Inspector:
 
 @dataclass(frozen=True)
 class PanelSetting:
-    """The panel's input besides the state."""
+    """The panel's inputs in addition to the state."""
 
     fonts: theme.Fonts
     focus: Focus
 
     @property
     def axes(self) -> list[Scale]:
-        """Return the scales for a place in the world: around 0, unless the scene is far from it."""
+        """Return the scales for a place in the world, around 0 unless the scene is far away."""
         reach = self.focus.reach
         middles = (middle if abs(middle) > reach else 0.0 for middle in self.focus.center)
         return [Scale(middle - reach, middle + reach) for middle in middles]
@@ -241,7 +242,7 @@ def _scene_lines(edits: Edits, scene: Scene, around: PanelSetting) -> None:
     if changed:
         edits.set_scene("name", name)
     for field, label, told in (
-        ("background", "sky", "what is seen where no object is"),
-        ("ambient", "ambient", "light that comes from everywhere: each surface reflects it"),
+        ("background", "sky", "the colour of rays that hit no object"),
+        ("ambient", "ambient", "light from everywhere, which each surface reflects"),
     ):
         edits.set_scene(field, color_line(label, getattr(scene, field), told, around.fonts))

@@ -1,6 +1,6 @@
 """The inspector's lines for materials.
 
-After a change, the selection has a material of its own.
+After a change, the selection has its own material.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ def material_lines(edits: Edits, scene: Scene, items: Sequence[Item], fonts: the
     entry = entry_of(scene, items[-1])
     if isinstance(name := entry.fields.material, str):
         imgui.text_disabled(f"material {name}")
-        rows.tip("The scene file shares it by this name. A change gives the selection its own.")
+        rows.tip("Objects share it by this name. A change gives the selection its own material.")
 
     def put(field: str, value: Any) -> None:
         if value is not None:
             edits.append(lambda scene: set_material(scene, items, field, value))
 
     made = entry.objects[0].material
-    put("diffuse", color_line("diffuse", made.diffuse, "reflected to all sides", fonts))
-    told = "of the highlight; with mirrors on, the part of the light that is reflected"
+    put("diffuse", color_line("diffuse", made.diffuse, "reflected in all directions", fonts))
+    told = "of the highlight; with mirrors on, the reflected part of the light"
     put("specular", color_line("specular", made.specular, told, fonts))
     told = "the highlight's exponent: the larger, the smaller the highlight"
     put("shininess", number_line("shininess", made.shininess, SHININESS, told, fonts, 50.0))

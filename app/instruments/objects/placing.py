@@ -1,7 +1,5 @@
-"""A place and a size for a new object or light: in the picture, in front of the scene's middle,
-sized to the scene.
-
-Pure.
+"""A place and a size for a new object or light: in the picture, in front of the scene's middle, and
+sized to the scene. Pure.
 """
 
 from __future__ import annotations
@@ -13,7 +11,7 @@ import numpy as np
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.scene.focus import Focus
 
-OF_SCENE, OF_VIEW = 0.16, 0.3  # a new object's size: of the scene's diagonal, of the view's height
+OF_SCENE, OF_VIEW = 0.16, 0.3  # sizes relative to the scene's diagonal and the view's height
 NEARER = 0.6  # the distance of a new object, relative to the middle
 LIGHT_AT = 0.4, 0.7  # across the picture and up, from -1 to 1
 
@@ -28,7 +26,7 @@ class NewPlace(NamedTuple):
 def place_for(focus: Focus, camera: Camera, is_light: bool = False) -> NewPlace:
     """Return a place in the middle of the picture; a light's is above it."""
     middle = float(camera.project(focus.center, (1, 1)).parameter)
-    if not middle > 0:  # the scene is behind the eye, or has no middle
+    if not middle > 0:  # the scene is behind the eye, or empty
         middle = focus.reach / camera.distance
     t = middle if is_light else NEARER * middle
     across, up = LIGHT_AT if is_light else (0.0, 0.0)

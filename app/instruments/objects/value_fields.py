@@ -19,7 +19,7 @@ Edit = Callable[[Scene], Scene]
 
 
 class Edits(list[Edit]):
-    """The edits that a panel asks for in one frame."""
+    """The edits that a panel requests in one frame."""
 
     def set(self, items: Sequence[Item], field: str, value: Any) -> None:
         """Set a field of some items, unless the value is None: its line has not changed."""
@@ -50,7 +50,7 @@ def number_line(
 def whole_line(
     label: str, value: int, scale: Scale, tooltip: str, fonts: theme.Fonts, reset: int
 ) -> int | None:
-    """Same for a whole number."""
+    """Draw a label and one whole number. Return the new number; None if it did not change."""
     new = number_line(label, value, scale, tooltip, fonts, reset)
     return None if new is None or round(new) == value else round(new)
 

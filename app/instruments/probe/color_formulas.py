@@ -222,7 +222,7 @@ def _display_lines(reading: Reading) -> list[Line]:
         light = Slot(r"\mathbf{L}'", light.latex_value)
     cut, latex = "", "<L>"
     if max(reading.exposed) > 1:
-        cut, latex = "; what is above 1 is cut off", r"\min(1,\ <L>)"
+        cut, latex = "; values above 1 are cut off", r"\min(1,\ <L>)"
     right = rf"{SRGB_SCALE}\,{latex}^{{1/{SRGB_GAMMA}}} - {SRGB_SHIFT}"
     name = f"sRGB's curve (up to {SRGB_LINEAR}: {SRGB_SLOPE} L)"
     if reading.transfer == "linear":

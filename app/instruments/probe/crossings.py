@@ -1,8 +1,8 @@
-"""Every crossing of a ray's line with a scene: in front of the eye, behind it, hidden or not.
+"""All crossings of a ray's line with a scene, in front of and behind the eye, visible or hidden.
 
-A small index (boxes around runs of triangles, which files list near one another) keeps this
-interactive for a million of them. Arithmetic is float64, in the order of
-renderer/trace/reference/intersect.py, whose reference tracer therefore finds the same numbers.
+A small index of boxes around runs of triangles, which are usually near each other in files, keeps
+this interactive for a million triangles. Arithmetic is float64, in the order of
+renderer/trace/reference/intersect.py, so the reference tracer finds the same numbers.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from lucida.renderer.scene.sampling import are_passed
 
 RUN = 64  # triangles that share a box
 ROUNDING = 1e-12  # slack of boxes, relative to the coordinates
-SAME = 1e-9  # relative: crossings of one object nearer to each other are one (a common edge)
+SAME = 1e-9  # relative; nearer crossings of one object are one, at a common edge
 
 
 ALL = slice(None)
@@ -72,7 +72,7 @@ class Index:
             np.concatenate(pair) for pair in zip(triangles, spheres, strict=True)
         )
         owners = np.concatenate([self.flat.face_object, self.flat.sphere_object]).astype(np.int64)
-        # By t; of equal ones the lowest number first, as everywhere.
+        # Sort by t; the lowest number comes first among equal ones, as everywhere.
         by_t = np.lexsort((primitive, t))
         found = Crossings(t, primitive, owners[primitive], b1, b2)
         return _single(_picked(found, by_t))
@@ -113,11 +113,12 @@ class Index:
     def _triangles(
         self, p: Floats, d: Floats, runs: slice = ALL, is_light: bool = False
     ) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
-        """Return (t, primitive, b1, b2) of the triangles, among those of these runs, that the line
-        meets and does not pass (openings.py)."""
+        """Return (t, primitive, b1, b2) of the triangles in these runs that the line hits without
+        passing them (openings.py).
+        """
         numbers = self._candidates(p, d, runs)
         corners = self.vertices[self.flat.faces[numbers]] - p
-        # The axis along which the line goes farthest becomes z; the other two follow it.
+        # The axis of the line's largest component becomes z; the other two follow it.
         z = int(np.argmax(np.abs(d)))
         x, y = (z + 1) % 3, (z + 2) % 3
         dx, dy, dz = d[x], d[y], d[z]
@@ -135,21 +136,19 @@ class Index:
 
     def _candidates(self, p: Floats, d: Floats, runs: slice) -> NDArray[np.int64]:
         """Return the triangles of the runs whose boxes the line hits."""
-        # Skip 0 / 0, in a box's face: the triangles are inside the slack.
+        # Skip 0 / 0, in a box's face, because the triangles are inside the slack.
         to_low, to_high = (self._low[runs] - p) / d, (self._high[runs] - p) / d
         enter, leave = np.fmin(to_low, to_high), np.fmax(to_low, to_high)
         first, last = enter.max(axis=1, initial=-np.inf), leave.min(axis=1, initial=np.inf)
         met = first <= last + 1e-9 * np.abs(last)
         starts = self._starts[runs][met]
         counts = self._ends[runs][met] - starts
-        # All of start, start + 1, ..., start + count - 1, one after another.
+        # Concatenate start, start + 1, ..., start + count - 1 of each run.
         skipped = np.repeat(starts - np.cumsum(counts) + counts, counts)
         return np.asarray(skipped + np.arange(counts.sum()), np.int64)
 
     def _spheres(self, p: Floats, d: Floats) -> tuple[Floats, NDArray[np.int64], Floats, Floats]:
-        """Return the same for spheres, both crossings of each; see reference/intersect.py's
-        hit_sphere.
-        """
+        """Return the same for both crossings of each sphere; see hit_sphere() in intersect.py."""
         spheres = self.flat.spheres
         f, radius = p - spheres[:, :3], spheres[:, 3]
         a, b = d @ d, -(f @ d)

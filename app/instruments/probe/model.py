@@ -140,9 +140,7 @@ class Probe:
 
     def _away(self) -> float:
         """Return the distance from a surface at which its rays start, in world units."""
-        from lucida.renderer.trace.tiles.effects import (
-            effects_of,
-        )  # loads the compiler
+        from lucida.renderer.trace.tiles.effects import effects_of  # slow: compiler
 
         effects = effects_of(True, 0, self.flat.bounds)
         assert effects is not None

@@ -1,6 +1,6 @@
 """The probe's panel: a pixel's formulas, the table of intersections, and the origin of its colour.
 
-Takes a state and a reading, and returns a new state.
+The functions take a state and a reading, and return a new state.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ class Pin:
     color: tuple[int, int, int] | None
 
 
-# The tools above.
+# The toolbar.
 
 
 def toolbar(
@@ -52,7 +52,7 @@ def toolbar(
 ) -> AppState:
     """Draw the pixel, and the buttons.
 
-    pixel: the marked one, or the one under the mouse. say: reports what was copied.
+    pixel: the marked one, or the one under the mouse. say: reports the copy.
     """
     indexing = state.options.indexing
     imgui.align_text_to_frame_padding()
@@ -174,7 +174,7 @@ def _table(reading: Reading, fonts: Fonts) -> None:
     missed = [meeting.name for meeting in reading.meetings if meeting.nearest is None]
     if missed:
         count = "no object is" if not met else f"{len(missed)} other{'s' * (len(missed) > 1)}"
-        text = "The ray meets no object." if not met else f"{count} not met by the ray"
+        text = "The ray hits no object." if not met else f"{count} not hit by the ray"
         imgui.text_colored(theme.DIM, text)
         imgui.set_item_tooltip("\n".join(missed[:40]) + ("\n..." if len(missed) > 40 else ""))
     elif not reading.meetings:
@@ -202,8 +202,8 @@ def _row(meeting: Meeting, fonts: Fonts) -> None:
 
 
 def color_row(shown: Shown | None, fonts: Fonts) -> None:
-    """Draw a pixel's colour as displayed, and its red, green and blue. shown: None without a
-    pixel.
+    """Draw a pixel's colour as displayed, and its red, green and blue.
+    shown: None without a pixel.
     """
     side = imgui.get_text_line_height()
     _swatch(shown[1] if shown is not None else (0, 0, 0), side)

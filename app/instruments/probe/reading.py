@@ -14,12 +14,12 @@ from lucida.renderer.scene.model import Color
 from .shading import Shading, SurfaceHit
 
 # The relation of a crossing to the pixel.
-SEEN = "seen"  # the nearest within the ray: the winner
+SEEN = "seen"  # the nearest on the ray: the winner
 HIDDEN = "hidden"  # farther than the winner
 BEHIND = "behind"  # t <= 0: not on the ray
 NEAR, FAR = "before near", "beyond far"  # cut off by the camera's clip planes
 
-OUTSIDE = "Outside of the lens: no direction appears at this pixel."
+OUTSIDE = "Outside the lens: no direction appears at this pixel."
 
 
 class Crossing(NamedTuple):
@@ -63,7 +63,7 @@ class Bounce:
     """One mirrored ray.
 
     weight: the part of its light that arrives at the pixel, per channel.
-    hit, shading: None if it leaves the scene.
+    hit, shading: None if it escapes.
     color: its light, unweighted.
     """
 
@@ -80,7 +80,7 @@ class Reading:
     """Everything that the probe knows about a pixel.
 
     x, y: the lecture's u and v, in units of the basis vectors.
-    origin, direction: the viewing ray, world space; a direction of NaN outside of the lens.
+    origin, direction: the viewing ray, world space; a direction of NaN outside the lens.
     t_range: the valid range of t.
     meetings: sorted, see Probe.at.
     hit, shading: None for the background.
@@ -114,5 +114,5 @@ class Reading:
 
     @property
     def is_outside(self) -> bool:
-        """True if the lens sees nothing here."""
+        """True if the pixel is outside the lens."""
         return math.isnan(self.direction[0])

@@ -1,8 +1,8 @@
 """The colour of a hit, term by term: ambient, then each light's diffuse and specular.
 
 The shading model with each light's terms is the tracer's own (renderer/trace/pure_python.py). This
-module only takes it apart and adds shadows. A test checks that the terms add up to what the
-renderers draw.
+module only separates its terms and adds shadows. A test checks that the terms add up to the
+renderers' colours.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from lucida.renderer.trace import pure_python as scalar
 
 _NONE = (0.0, 0.0, 0.0)
 
-# Of a hit, the unit vector to a light, and its reach.
+# Takes a hit, the unit vector to a light, and the light's reach.
 LitTest = Callable[["SurfaceHit", Vector, float], bool]
 
 
 @dataclass(frozen=True)
 class SurfaceHit:
-    """The point where a ray hits the object it sees, in world space.
+    """The point at which a ray hits its nearest object, in world space.
 
     t: in units of the ray's `direction`.
     primitive: its number in the flat scene.

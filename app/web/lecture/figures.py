@@ -30,7 +30,7 @@ SHOWN = {
     "compare": ("raster", "ray", "wipe"),
     "probe": ("probe",),
 }
-# Parts of the outside view that modules/outside.js draws; it draws no others.
+# The only parts of the outside view that modules/outside.js draws.
 DRAWN = (
     *("camera", "volume", "image", "basis", "grid", "ray", "gizmo"),
     *("target", "up", "pixels"),
@@ -40,7 +40,7 @@ DRAWN = (
 class Figures:
     """The figures of a page, and their scenes, each packed once.
 
-    scenes: packed, by number; each has the number of its shaders. shaders: each once.
+    scenes: packed, by number, each with the number of its shaders. shaders: without duplicates.
     """
 
     def __init__(self) -> None:
@@ -50,7 +50,7 @@ class Figures:
         self._kept: list[Scene] = []  # so that no id is used twice
 
     def of(self, step: Step, state: AppState) -> dict[str, Any] | None:
-        """Return a step's figure as JSON; None if there is none to try.
+        """Return a step's figure as JSON; None if there is none.
 
         A figure that draws less than the step's pictures must have something to drag. state: the
         step's. Its field "open" is true if the step's exercise is answered in the figure.
@@ -100,7 +100,7 @@ class Figures:
             try:
                 self.scenes.append(self._shared(packed_scene(scene)))
                 self._numbers[id(scene)] = len(self.scenes) - 1
-            except LucidaError:  # its pictures are in the page in any case
+            except LucidaError:  # the page always has its pictures
                 self._numbers[id(scene)] = None
         return self._numbers[id(scene)]
 
@@ -130,7 +130,7 @@ def _outside(step: Step, state: AppState) -> dict[str, Any]:
 
 
 def _photograph(state: AppState) -> dict[str, Any] | None:
-    """Return the picture that is laid over a step's images, as JSON; None for none."""
+    """Return the photograph over a step's images as JSON, or None."""
     options = state.options.photograph
     path = path_of(state)
     if path is None or not options.shown:
@@ -145,7 +145,7 @@ def is_live(view: str, shows: Sequence[str]) -> bool:
 
 
 def _is_whole(step: Step, state: AppState) -> bool:
-    """Return True if a figure draws all that a step's pictures show."""
+    """Return True if a figure draws all parts of a step's pictures."""
     outside, images = state.options.outside, state.images
     drawn = {name: getattr(outside, name) for name in DRAWN}
     return (

@@ -34,7 +34,7 @@ Points = tuple[NDArray[np.float64], NDArray[np.uint8]]  # (n, 3), and their colo
 class PosedImage(NamedTuple):
     """A posed image.
 
-    where: its place in the file, for errors. pose: a quaternion (w, x, y, z) and a translation:
+    where: its place in the file, for errors. pose: a quaternion (w, x, y, z) and a translation,
     camera from world, y down and z forward. camera: an id. name: the photograph's, relative to the
     folder of images.
     """
@@ -56,7 +56,7 @@ def text_cameras(data: bytes) -> Lenses:
 
 
 def text_images(data: bytes) -> list[PosedImage]:
-    """Return the images. Each has two lines; the second, its points, may be empty and is not kept.
+    """Return the images. Each has two lines; the second, its points, may be empty and is ignored.
 
     The number of images in a comment is not checked; COLMAP does not check it either.
     """
@@ -152,7 +152,7 @@ class _Binary:
         self.place += size_bytes
         if self.place > len(self._data):
             problem = f"the file ends within it, at {len(self._data):,} bytes"
-            raise LucidaError(self._entry, problem, "copy the file whole")
+            raise LucidaError(self._entry, problem, "copy the complete file")
 
 
 def _checked(points: Any, colors: Any) -> Points:
@@ -171,7 +171,7 @@ def _lines(data: bytes, blank: bool = False) -> Iterator[tuple[int, str]]:
 
 @contextlib.contextmanager
 def _reading(number: int, line: str, fields: str) -> Iterator[None]:
-    """Give errors raised inside this line; fields: what it should be."""
+    """Assign this line to errors raised inside. fields: its expected content."""
     with under(f"line {number}", ": "):
         try:
             yield

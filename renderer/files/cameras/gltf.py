@@ -1,4 +1,5 @@
-"""The cameras of glTF files, .gltf and .glb, each at its node; and .gltf files with nothing else.
+"""The cameras of glTF files, .gltf and .glb, each at its node, and a writer of .gltf files with
+only cameras.
 
 A glTF camera is centred and has no skew; it does not store an image size.
 Source: Khronos, glTF 2.0 Specification, "Cameras".
@@ -24,7 +25,7 @@ from .given import Given, Options
 from .posed import CameraSet, PosedCamera, sized
 from .rigid import ANY_SIZE, UNSEEN_PX, pose_of, rigid
 
-# For a camera without clip planes: in units of the viewport's distance (parallel: its height).
+# Clip planes of a camera without them, in units of the viewport's distance (parallel: its height).
 NEAR, FAR = 1e-3, 1e3
 
 
@@ -50,16 +51,16 @@ def read(given: Given, options: Options) -> CameraSet:
         fit = not found.has_aspect
         if fit:
             name = found.name or len(cameras)
-            taken.append(f"{name!r} has no aspectRatio: its yfov is of an image wider than high")
+            taken.append(f"{name!r} has no aspectRatio: its yfov is for an image wider than high")
         cameras.append(PosedCamera(found.camera, options.size, found.name, fit=fit))
     notes = tuple(_notes(tree, shown))
     return CameraSet("gltf", tuple(cameras), (*taken, *notes), notes=notes)
 
 
 def _notes(tree: Gltf, shown: set[int]) -> Iterator[str]:
-    """Yield what is in a file and not shown."""
+    """Yield a note for each ignored part of a file."""
     if tree.animations:
-        yield "animations are not used: the cameras are where their nodes are at rest"
+        yield "animations are not used: the cameras are at their nodes' resting places"
     for number in sorted(set(range(len(tree.cameras))) - shown):
         yield f"cameras[{number}] is not used: no node of the scene holds it"
 
@@ -102,7 +103,7 @@ def camera_table(camera: Camera, size: Size | None) -> dict[str, Any]:
         parts = f"{off[0]:.3g} of its width and {off[1]:.3g} of its height"
         raise LucidaError(
             "viewport",
-            f"{listed(camera.viewport)} is off the middle by {parts}, which gltf has not",
+            f"{listed(camera.viewport)} is off the middle by {parts}, which gltf cannot hold",
             "centre it, or write opencv or colmap",
         )
     reach = height if camera.is_parallel else camera.distance

@@ -139,7 +139,7 @@ def lens_in(keys: Keys) -> Lens | None:
     model = next(filter(None, models), "brown")
     if "mirror" in keys and number_of(*keys["mirror"]):
         name, value = keys["mirror"]
-        problem = f"{value!r} is a mirror or Mei's lens, which is not supported"
+        problem = f"{value!r} is for a mirror or Mei's lens, which is not supported"
         raise LucidaError(name, problem, "give a pinhole or a fisheye")
     known = _LENS_NAMES.get(model, NAMES)
     if "lens" in keys:

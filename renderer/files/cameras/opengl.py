@@ -43,7 +43,7 @@ def recognises(given: Given) -> bool:
 
 
 def has_matrices(text: str) -> bool:
-    """Return True if a text assigns both matrices, or one that has Lucida's name."""
+    """Return True if a text assigns both matrices, or one by Lucida's name."""
     found = _assigned(text)
     if not found.keys().isdisjoint(_OURS):
         return True
@@ -90,7 +90,7 @@ def matrices(camera: Camera, around: tuple[float, float], told: str) -> str:
         f"# near = {near!r}, far = {far!r}{note}",
     ]
     for name, table in tables.items():
-        # + 0.0: no negative zeros
+        # Adding 0.0 avoids negative zeros.
         columns = (", ".join(map(repr, column)) for column in (table.T + 0.0).tolist())
         lines += [f"{name} = [", *(f"    {column}," for column in columns), "]"]
     return "\n".join(lines) + "\n"
@@ -103,6 +103,7 @@ def _assigned(text: str) -> dict[str, str]:
 
 def _matrix(found: dict[str, str], names: tuple[str, ...]) -> tuple[str, Floats]:
     """Return the name that is present, and its numbers, four per row in the order of the text.
+
     A transposition in the text is ignored, since _orders() determines the order.
     """
     name = next((name for name in names if name in found), None)
@@ -111,7 +112,7 @@ def _matrix(found: dict[str, str], names: tuple[str, ...]) -> tuple[str, Floats]
     return name, flat(name, value_of(name, found[name].replace(".T", "")), 16).reshape(4, 4)
 
 
-@np.errstate(all="ignore")  # Camera's own checks reject what overflows
+@np.errstate(all="ignore")  # Camera's own checks reject overflows
 def _camera(
     names: tuple[str, str], view: Floats, clip: Floats, fitted: bool
 ) -> tuple[Camera, tuple[str, ...]]:

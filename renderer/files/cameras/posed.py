@@ -23,9 +23,9 @@ class PosedCamera:
     """One camera of a file.
 
     size: (width, height) of its image; None if the format has none. In that case, the viewport
-    determines the aspect ratio, and fit widens it to each image. name: the file's name for
-    it, or the photograph's name. image: the path of the photograph, which may not exist; "" if the
-    file names none.
+    determines the aspect ratio, and fit widens it to each image. name: the file's name for it, or
+    the photograph's name. image: the path of the photograph, which may not exist; "" if the file
+    names none.
     """
 
     camera: Camera

@@ -1,5 +1,5 @@
-"""Rotations as matrices, quaternions (w, x, y, z), and vectors along the axis, whose
-length is the angle in radians (Rodrigues).
+"""Rotations as matrices, quaternions (w, x, y, z), and vectors along the axis, whose length is the
+angle in radians (Rodrigues).
 """
 
 from __future__ import annotations

@@ -33,8 +33,8 @@ def check_export_path(path: str | Path, endings: Sequence[str] = ENDINGS) -> Pat
 def export_scene(path: str | Path, scene: Scene, camera: Camera, size: Size) -> tuple[str, ...]:
     """Write a scene as glTF (.glb), seen by a camera in an image of `size`, (width, height).
 
-    Returns a line for each thing that glTF cannot hold. Raises LucidaError if glTF cannot hold
-    the camera, or the file cannot be written. Stops if the work is cancelled
+    Returns a line for each thing that glTF cannot hold. Raises LucidaError if glTF cannot hold the
+    camera, or the file cannot be written. The export stops if it is cancelled
     (renderer/system/cancelling.py).
     """
     target = check_export_path(path)

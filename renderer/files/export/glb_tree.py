@@ -59,7 +59,7 @@ class GlbTree:
         return {"index": self.add("textures", {"source": source, "sampler": sampler})}
 
     def glb(self, tree: dict[str, Any]) -> bytes:
-        """Return the file. tree: what is not in the lists."""
+        """Return the file. tree: its parts apart from the lists."""
         if self._chunk:
             tree = tree | {"buffers": [{"byteLength": len(self._chunk)}]}
         return glb_bytes(tree | self._lists, bytes(self._chunk))

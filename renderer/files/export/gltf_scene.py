@@ -1,4 +1,4 @@
-"""A scene as a binary glTF file, .glb: meshes, materials, lights (KHR_lights_punctual), the camera.
+"""A scene as a binary glTF file, .glb: meshes, materials, lights (KHR_lights_punctual) and camera.
 
 Blinn and Phong's highlight, specular * (n . h)^p, becomes a microfacet highlight with the same
 width and peak: a roughness alpha with alpha^2 = 2 / (p + 2), whose peak is F0 / (4 alpha^2).
@@ -43,7 +43,7 @@ LIGHTS, SPECULAR = "KHR_lights_punctual", "KHR_materials_specular"
 
 
 def glb_of(scene: Scene, camera: Camera, size: Size) -> tuple[bytes, tuple[str, ...]]:
-    """Return a scene as a .glb file, and one line for each thing that differs there.
+    """Return a scene as a .glb file, and one line for each difference.
 
     Raises LucidaError for a camera that glTF cannot hold.
     """
@@ -71,7 +71,7 @@ def glb_of(scene: Scene, camera: Camera, size: Size) -> tuple[bytes, tuple[str, 
     if lights:
         tree["extensions"] = {LIGHTS: {"lights": lights}}
     if any(isinstance(light, PointLight) for light in scene.lights):
-        left.append("point lights: they are as bright as here at the objects' median distance")
+        left.append("point lights: they are equally bright only at the objects' median distance")
     return made.glb(tree), tuple(dict.fromkeys(map(one_line, left)))
 
 
@@ -111,7 +111,7 @@ def _with_uv(found: Triangles, texture: Texture) -> Triangles:
 def _material(
     made: GlbTree, material: Material, texture: Texture | None, name: str, left: list[str]
 ) -> dict[str, Any]:
-    """Return glTF's nearest material. texture: for a mesh that shows one."""
+    """Return glTF's nearest material. texture: None unless the mesh shows one."""
     surface: dict[str, Any] = {"doubleSided": not material.single_sided}
     if material.cutout is not None:
         surface |= {"alphaMode": "MASK", "alphaCutoff": material.cutout}
@@ -134,7 +134,7 @@ def _material(
     pbr |= {"metallicFactor": 0.0, "roughnessFactor": 1.0}
     specular: dict[str, Any] = {"specularFactor": 0.0}
     if any(material.specular):
-        left.append("highlights: microfacets, as wide and as bright in the middle")
+        left.append("highlights: microfacets, equally wide and equally bright in the middle")
         squared = 2 / (material.shininess + 2)
         peaks = (min(4 * squared * part, MOST_REFLECTED) for part in material.specular)
         specular = {"specularColorFactor": [peak / DIELECTRIC for peak in peaks]}
@@ -143,7 +143,7 @@ def _material(
 
 
 def _mean(material: Material) -> Color:
-    """Return the mean colour of a checker or a texture; else the diffuse colour."""
+    """Return the mean colour of a checker or a texture, or else the diffuse colour."""
     rgb = np.array(material.diffuse)
     if material.texture is not None:
         light = from_srgb(material.texture.texels[..., :3].reshape(-1, 3) / np.float32(255))
@@ -155,8 +155,9 @@ def _mean(material: Material) -> Color:
 
 
 def _light(scene: Scene, light: PointLight | DirectionalLight) -> dict[str, Any]:
-    """Return a light in radiometric units, with which a diffuse surface is as bright as in Lucida:
-    for a point light, at the centre of an object at the median distance.
+    """Return a light in radiometric units that makes a diffuse surface as bright as in Lucida.
+
+    For a point light, this holds at the objects' median distance.
     """
     brightest = max(light.color)
     intensity, kind = math.pi * brightest, "directional"

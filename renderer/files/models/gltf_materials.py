@@ -35,7 +35,7 @@ WRAP_NAMES = {10497: "repeat", 33648: "mirror", 33071: "clamp"}
 def read_materials(
     file: OpenGltf, used: Iterable[int | None], images: ModelImages
 ) -> dict[int, Material]:
-    """Return the materials that are used, with their images. Note what is not shown."""
+    """Return the used materials, with their images. Note features that are not shown."""
     found, missing = {}, {}
     for number in sorted(number for number in used if number is not None):
         given = file.tree.entry("materials", number)

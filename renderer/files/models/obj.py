@@ -112,7 +112,7 @@ def _rows(lines: Lines, kind: str, images: ModelImages) -> Floats:
 
 def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
     """Return the polygons' corners: indices of vertices, texture coordinates and normals, (c,),
-    None where no corner has any; and the number of corners of each polygon.
+    None if no corner has any; and the number of corners of each polygon.
 
     Indices count from 0; -1 means none, and lower numbers are invalid.
     """
@@ -120,7 +120,7 @@ def _corners(lines: Lines) -> tuple[list[Ints], Ints]:
     found, counts = texts.corners(lines.of("f"))
     for kind, column in zip(("v", "vt", "vn"), found, strict=True):
         if column is not None:
-            # Negative ones count from the end of what was defined above their line.
+            # Negative ones count from the end of the entries above their line.
             if column.min() < 0:
                 above = np.searchsorted(lines.numbers(kind), lines.numbers("f"))
                 back = np.repeat(above, counts) + column
@@ -143,7 +143,7 @@ def _merged(
 
     corners: triangles of vertices, texture coordinates and normals. uvs, normals: their numbers.
     Corners that agree in all three become one vertex. uv is None unless all corners have
-    coordinates, normal if none has a normal; those without one are given number `normals`.
+    coordinates, normal if none has a normal; those without one get number `normals`.
     """
     key = vertices = corners[0].reshape(-1)
     others: list[Ints | None] = []
@@ -213,7 +213,7 @@ def _materials(folder: Path, libraries: list[str], images: ModelImages) -> dict[
     """Return the materials of the .mtl files in the folder of the .obj file, by name. The first
     file that has a name defines it. Note the files that cannot be read.
 
-    libraries: what follows each mtllib: a name that may hold blanks, or several.
+    libraries: the text after each mtllib, a name that may hold blanks, or several names.
     """
     found: dict[str, MtlMaterial] = {}
     for line in libraries:

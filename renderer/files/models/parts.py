@@ -1,4 +1,4 @@
-"""The parts of a model file, repaired into sound meshes."""
+"""The parts of a model file, repaired into valid meshes."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from lucida.renderer.system.errors import LucidaError
 
 from .polygons import check_corners
 
-NEEDLE = 1e-9  # height over longest side below which a triangle has no area that could be seen
-SMALLEST_AREA = 1e-18  # its square must not vanish in float32, in which the renderers compute
-LARGEST_UV = 1e6  # times an image: float32 knows no place in it beyond that
-FAR = 16.0  # times its own size: farther from the file's origin than that, a mesh gets its own
-SPREAD = (5, 50, 95)  # percentiles of a mesh's vertices: a few stray ones do not count
+NEEDLE = 1e-9  # height over longest side below which a triangle has no visible area
+SMALLEST_AREA = 1e-18  # its square must not vanish in the renderers' float32
+LARGEST_UV = 1e6  # times an image; float32 cannot resolve it beyond that
+FAR = 16.0  # times its own size; a mesh farther from the file's origin gets its own
+SPREAD = (5, 50, 95)  # percentiles of a mesh's vertices, so that a few stray ones do not count
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """One geometry of a model file, as it was read.
+    """One geometry of a model file, as read.
 
     vertices (n, 3). faces (m, 3). normals (n, 3) or None. colors (n, 3), linear, or None. material:
-    None where the file has none. uv (n, 2), v up, or None; where a texture needs them. has_backs:
-    whether a face that repeats another one turned over stays: where a material is single-sided,
-    each is seen from its side.
+    None if the file has none. uv (n, 2), v up, or None; only if a texture needs them. has_backs:
+    keep a face that repeats another one with opposite winding, because each is visible from its
+    side if the material is single-sided.
     """
 
     name: str
@@ -51,10 +51,10 @@ def build_mesh(part: Part) -> Mesh | None:
 
     Faces without area are dropped, and so are faces that repeat
     another's three positions (both would be hit at the same distance), and vertices that no face
-    uses. Without usable normals in the file they are computed, smooth up to CREASE_DEG. A mesh that
-    is small against its coordinates (a map's, a plant's) gets an origin of its own, from which they
-    are float32, and a transform to its place. Raises LucidaError if a face uses a vertex that does
-    not exist, or one that is NaN or infinite.
+    uses. Without usable normals in the file, they are computed, smooth up to CREASE_DEG. A mesh
+    that is small compared with its coordinates (a map's, a plant's) gets its own origin, from which
+    they are float32, and a transform to its place. Raises LucidaError if a face uses a vertex that
+    does not exist, or one that is NaN or infinite.
     """
     faces, count = np.asarray(part.faces, np.int64), len(part.vertices)
     vertices = _rows(part.vertices, count, 3)
@@ -63,14 +63,14 @@ def build_mesh(part: Part) -> Mesh | None:
     check_corners(faces.reshape(-1), count)
     given = (part.normals, 3), (part.colors, 3), (part.uv, 2)
     normals, colors, uv = (_rows(rows, count, width) for rows, width in given)
-    if count > 3 * len(faces):  # parts may share one list of vertices
+    if count > 3 * len(faces):  # parts may share a list of vertices
         source, faces = used_vertices(faces)
         vertices, normals, colors, uv = _taken(source, vertices, normals, colors, uv)
     if uv is not None:
-        uv = np.where(np.abs(uv) <= LARGEST_UV, uv, 0.0).astype(np.float32)  # 0 for NaN too
+        uv = np.where(np.abs(uv) <= LARGEST_UV, uv, 0.0).astype(np.float32)  # 0 for NaN, too
     _check_used(vertices, faces)
     origin = _own_origin(vertices, faces)
-    with np.errstate(over="ignore", invalid="ignore"):  # of vertices that no face uses
+    with np.errstate(over="ignore", invalid="ignore"):  # for vertices that no face uses
         positions = (vertices - origin).astype(np.float32)
     merged = merge_positions(positions)
     keep = _visible(positions, faces, merged, part.has_backs)
@@ -104,18 +104,18 @@ def linear_colors(colors: ArrayLike | None, linear: bool = False) -> NDArray[np.
     if colors is None:
         return None
     colors = np.asarray(colors)
-    with np.errstate(all="ignore"):  # numbers that float32 does not hold
+    with np.errstate(all="ignore"):  # numbers beyond float32
         rgb = colors[:, :3].astype(np.float32)
     if colors.dtype.kind in "ui":
         rgb /= np.float32(255 if colors.dtype.itemsize > 2 else np.iinfo(colors.dtype).max)
-    elif not linear and (rgb > 1.5).any():  # written as 0 to 255 all the same
+    elif not linear and (rgb > 1.5).any():  # written as 0 to 255 nevertheless
         rgb /= np.float32(255)
     rgb = np.nan_to_num(rgb, nan=0.0, posinf=BRIGHTEST, neginf=0.0)
     return np.clip(rgb, 0, BRIGHTEST) if linear else from_srgb(rgb)
 
 
 def _rows(value: Any, count: int, width: int) -> NDArray[Any] | None:
-    """Return numbers (count, width); None if a file has others there, or none."""
+    """Return numbers (count, width), or None if the file's have another shape, or are missing."""
     if value is None or np.shape(value) != (count, width):
         return None
     with np.errstate(invalid="ignore"):  # a signalling NaN
@@ -124,7 +124,7 @@ def _rows(value: Any, count: int, width: int) -> NDArray[Any] | None:
 
 def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
     """Raise LucidaError if a face uses a vertex that is not a usable point."""
-    wrong = np.logical_not((np.abs(vertices) <= LARGEST).all(axis=1))  # true for NaN too
+    wrong = np.logical_not((np.abs(vertices) <= LARGEST).all(axis=1))  # true for NaN, too
     if not wrong.any():
         return
     wrong_used = np.unique(faces[wrong[faces]])
@@ -140,9 +140,9 @@ def _check_used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None
 def _own_origin(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return the origin of the mesh's own space: the file's origin, or a point near a far mesh.
 
-    That point is a multiple of a power of two of about the mesh's size: exact, and a pattern of
-    cells whose side is a smaller power of two does not shift. Stray vertices, such as a marker at
-    the origin of a map, change neither the size nor the point.
+    That point is a multiple of a power of two of about the mesh's size. It is therefore exact, and
+    a pattern of cells whose side is a smaller power of two does not shift. Stray vertices, such as
+    a marker at the origin of a map, change neither the size nor the point.
     """
     used = np.zeros(len(vertices), bool)
     used[faces] = True
@@ -165,7 +165,7 @@ def _visible(
     merged: NDArray[np.int64],
     has_backs: bool,
 ) -> NDArray[np.bool_]:
-    """Return which faces have an area and do not repeat an earlier face's positions: (m,).
+    """Return a mask (m,) of faces with an area that do not repeat an earlier face's positions.
 
     merged: the result of merge_positions(). has_backs: see Part.
     """
@@ -175,7 +175,7 @@ def _visible(
     longest = np.max([np.einsum("ij,ij->i", side, side) for side in sides], axis=0)
     area = np.linalg.norm(np.cross(sides[0], sides[2]), axis=1)
     sound = (area > NEEDLE * longest) & (area > SMALLEST_AREA)
-    if has_backs:  # the least corner first, in the same turn
+    if has_backs:  # begin with the least corner, keeping the winding
         turn = (joined.argmin(axis=1)[:, None] + np.arange(3)) % 3
         ordered = np.take_along_axis(joined, turn, axis=1)
     else:

@@ -11,7 +11,7 @@ from lucida.renderer.system.errors import LucidaError
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
-TURNED = 1e-9  # part of a polygon's area below which a triangle of its fan is not turned over
+TURNED = 1e-9  # smaller parts of a polygon's area do not count as inverted
 
 
 def check_corners(corners: Ints, count: int) -> None:
@@ -25,9 +25,9 @@ def triangulated(points: Floats, corners: Ints, counts: Ints) -> tuple[Ints, Int
     """Return (places, owner): triangles as places in `corners`, (t, 3), and their polygons, (t,).
 
     points: (n, 3). corners: the points of all polygons, one polygon after another. counts: the
-    number of corners of each. A polygon becomes a fan around its first corner if none of the fan's
-    triangles is turned over; otherwise ears are clipped in the polygon's plane, so that concave
-    ones and holes that are joined to the border by an edge are right.
+    number of corners of each. A polygon becomes a fan around its first corner if no triangle of the
+    fan is inverted; otherwise, ears are clipped in the polygon's plane, which also handles concave
+    polygons, and holes joined to the border by an edge.
     """
     starts = np.cumsum(counts) - counts
     places, owners = [np.zeros((0, 3), np.int64)], [np.zeros(0, np.int64)]
@@ -51,8 +51,8 @@ def triangulated(points: Floats, corners: Ints, counts: Ints) -> tuple[Ints, Int
 
 
 def _turned(triangles: Floats) -> tuple[NDArray[np.bool_], Floats]:
-    """Return which polygons have a turned triangle in their fan, and normals twice as long as the
-    polygons' areas. triangles: of each polygon's fan, (polygons, triangles, corners, 3).
+    """Return a mask of polygons with an inverted triangle in their fan, and normals twice as long
+    as the polygons' areas. triangles: of each polygon's fan, (polygons, triangles, corners, 3).
     """
     with np.errstate(all="ignore"):
         a, b, c = np.moveaxis(triangles, 2, 0)
@@ -64,7 +64,7 @@ def _turned(triangles: Floats) -> tuple[NDArray[np.bool_], Floats]:
 
 
 def _ears(points: Floats, normal: Floats) -> Ints:
-    """Return the triangles (t, 3) of one polygon's corners, turned as its normal says."""
+    """Return the triangles (t, 3) of one polygon's corners, wound about its normal."""
     flat = np.delete(points, np.abs(normal).argmax(), axis=1)
     ends = np.array([len(flat)], np.uint32)
     ears = mapbox_earcut.triangulate_float64(flat, ends).reshape(-1, 3).astype(np.int64)

@@ -95,8 +95,8 @@ def _ply_header(header: str) -> tuple[list[_PlyElement], str]:
 def _ply_columns(
     body: bytes, at: int, element: _PlyElement, order: str, is_text: bool
 ) -> tuple[Columns, int]:
-    """Return the columns of an element, and its end. A list has two: its numbers under its
-    name, and their count in each row under "name count".
+    """Return the columns of an element, and its end. A list has two: its numbers under its name,
+    and their count in each row under "name count".
     """
     if element.rows < 0:
         raise ValueError

@@ -1,7 +1,7 @@
-"""Read models that are text: within bounds, in one encoding, with one kind of line end; and many
-numbers at once, each exactly as float() and int() would.
+"""Read text models within bounds, in one encoding and with one kind of line end.
 
-A text with numbers is whole lines, and begins with a blank.
+Many numbers are read at once, exactly as by float() and int(). A text with numbers consists of
+whole lines, and begins with a blank.
 """
 
 from __future__ import annotations
@@ -27,12 +27,12 @@ _NEWLINE, _SLASH, _BLANK = 10, 47, 32
 
 
 def read_text_bytes(path: Path) -> bytes:
-    """Return the tidy text of a model, in UTF-8 or nearly so. Raises LucidaError, also for noise,
-    which would be searched for lines for a long time.
+    """Return the tidy text of a model, in UTF-8 or nearly so. Raises LucidaError, also for binary
+    data, in which the search for lines would take long.
     """
     data = read_file(path, TEXT_MODEL_BYTES)
     if b"\0" in data:
-        problem, remedy = "holds zero bytes: it is no text", "export it again, as text in UTF-8"
+        problem, remedy = "holds zero bytes: it is not text", "export it again, as text in UTF-8"
         raise LucidaError("", problem, remedy, str(path))
     return tidy(data)
 
@@ -40,20 +40,20 @@ def read_text_bytes(path: Path) -> bytes:
 def tidy(data: bytes) -> bytes:
     """Return a text with newlines only, and with continued lines (a backslash at the end) joined.
 
-    It begins and ends with a newline; otherwise lines keep their number.
+    It begins and ends with a newline. Apart from the first one, lines keep their numbers.
     """
     text = data.removeprefix(codecs.BOM_UTF8)
     if b"\r" in text:
         text = text.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     text = b"\n%s\n" % text
-    if b"\\\n" in text:  # a backslash continues its line, unless that is a comment: # C:\models\
+    if b"\\\n" in text:  # a backslash continues its line, except in a comment: # C:\models\
         text = _COMMENT_LINE.sub(lambda line: line[0].rstrip(b"\\"), text)
         text = text.replace(b"\\\n", b" ")
     return text
 
 
 def is_number(word: str) -> bool:
-    """Return True if float() takes the word."""
+    """Return True if float() accepts the word."""
     try:
         float(word)
     except ValueError:
@@ -62,7 +62,7 @@ def is_number(word: str) -> bool:
 
 
 def words(text: bytes) -> tuple[Ints, Ints]:
-    """Return where each word begins, and how many words each line has."""
+    """Return the offset of each word, and the number of words in each line."""
     octets = np.frombuffer(text, np.uint8)
     blank = octets <= _BLANK
     begins = np.flatnonzero(blank[:-1] > blank[1:]) + 1
@@ -79,8 +79,8 @@ def floats(text: bytes, begins: Ints) -> NDArray[np.float64]:
 
 def corners(text: bytes) -> tuple[list[Any], Ints]:
     """Return the first, second and third whole number of words such as 7, 7/8, 7//9 and 7/8/9: 0 if
-    a word lacks one, None if all do; and how many words each line has. Raises ValueError for any
-    other word.
+    a word lacks one, None if all do; and the number of words in each line. Raises ValueError for
+    any other word.
     """
     text = text.replace(b"//", b"/0/")
     octets = np.frombuffer(text, np.uint8)
@@ -107,10 +107,10 @@ def corners(text: bytes) -> tuple[list[Any], Ints]:
 
 
 def _parsed(text: bytes, kind: Any, count: int) -> NDArray[Any]:
-    """Return the text's numbers, if there are exactly so many and nothing else."""
+    """Return the text's numbers if it consists of exactly `count` of them."""
     if not count:
         return np.zeros(0, kind)
-    with warnings.catch_warnings():  # before NumPy 2.4 it only warned of what is no number
+    with warnings.catch_warnings():  # NumPy before 2.4 only warned of other words
         warnings.simplefilter("ignore", DeprecationWarning)
         numbers = np.fromstring(text, kind, sep=" ")
     if len(numbers) != count:

@@ -1,7 +1,7 @@
 """Memory for images, reused as soon as nothing refers to it.
 
 Blocks are kept between two images. A live image has 10 to 100 MB. The system provides fresh memory
-page by page: thousands of page faults, which can take as long as the tracing. All channels of an
+page by page, with thousands of page faults that can take as long as the tracing. All channels of an
 image therefore share one block, which returns here when the last array in it is freed.
 """
 
@@ -18,7 +18,7 @@ from numpy.typing import DTypeLike, NDArray
 KEPT = 3  # idle blocks; the one that has been idle longest is dropped first
 LARGEST_KEPT_BYTES = 1 << 27  # 2560x1440 pixels of all channels
 _LINE_BYTES = 64
-# Stagger arrays within pages: otherwise a pixel's numbers would compete for the same cache set.
+# Stagger arrays within pages, because a pixel's numbers would compete for the same cache set.
 _STAGGER_BYTES = _LINE_BYTES
 
 Block = NDArray[np.uint8]
@@ -52,7 +52,7 @@ class Buffers:
 
     def _block(self, size: int) -> Block:
         """Return an idle block of that size, or a new one. The most recently used block comes
-        first, since most of it is still cached.
+        first, because most of it is still cached.
         """
         for _ in range(KEPT):
             try:

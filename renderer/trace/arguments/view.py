@@ -1,4 +1,4 @@
-"""The camera for a kernel: plain numbers. The formulas are in renderer/camera/camera.py."""
+"""The camera for a kernel, as plain numbers. renderer/camera/camera.py has the formulas."""
 
 from __future__ import annotations
 
@@ -36,8 +36,9 @@ class KernelView(NamedTuple):
 
     @classmethod
     def of(cls, camera: Camera, size: Size | None = None) -> KernelView:
-        """Return the numbers of a camera; with the directions if it has a lens, and a size is
-        given."""
+        """Return the numbers of a camera, with the directions if it has a lens and a size is
+        given.
+        """
         scale = 1.0 if camera.is_parallel else camera.distance
         x, y, z = camera.w
         t_min, t_max = camera.t_range

@@ -162,10 +162,10 @@ def _collapse(bounds, links, below, row, costs, box, child, leaves):
     levels.
 
     First, compute the cost of each binary node: the least total surface of the wide nodes that its
-    subtree takes if it has 1 to WIDTH slots in the node above. In one slot, this is its own
-    surface plus the cost of its children in WIDTH slots. In more slots, it is the same, or the cost
-    of its children if they share these slots in the best way. Then create the wide nodes from the
-    root on, according to the costs. below: scratch for the number of leaves below each binary node.
+    subtree takes if it has 1 to WIDTH slots in the node above. In one slot, this is its own surface
+    plus the cost of its children in WIDTH slots. In more slots, it is the same, or the cost of its
+    children if they share these slots in the best way. Then create the wide nodes from the root on,
+    according to the costs. below: scratch for the number of leaves below each binary node.
     row: the start of each node's WIDTH numbers in costs; a leaf's are 0. This is a single function
     because two would take longer to compile.
     """

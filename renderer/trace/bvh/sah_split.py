@@ -6,9 +6,9 @@ over a node reads them sequentially.
 
 The low sides are negated, so that the box around two boxes is one maximum of vectors. Bounds are a
 vector: the first half is the box in a record's layout, and the second half bounds the centres in
-the same way. Bins keep only boxes, in half vectors; the bounds of both halves of a node
-are computed while its records are partitioned. Centres are doubled throughout (low + high), to
-avoid halving.
+the same way. Bins keep only boxes, in half vectors; the bounds of both halves of a node are
+computed while its records are partitioned. Centres are doubled throughout (low + high), to avoid
+halving.
 
 Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", 2007.
 """
@@ -45,9 +45,7 @@ BINS = 16
 SAMPLE = 2048  # records sampled to find a split, if there are many more
 RECORD = 8
 NUMBER = 3  # a record's column, as int32, with the primitive's number and this bit:
-NUMBERED = (
-    1 << 30
-)  # without it, small numbers would be denormal float32, three times as slow to bin
+NUMBERED = 1 << 30  # otherwise, small numbers would be denormal, and three times as slow to bin
 HIGH = 4  # the column with the high x
 ROOM_OF_BINS = 3 * BINS * RECORD + 2 * LANES
 FAR = np.float32(3.4e38)

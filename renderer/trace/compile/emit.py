@@ -3,8 +3,7 @@
 numba takes about a millisecond for each statement, but none for a function decorated by emitted().
 At each call in a kernel, Python calls it with Values, whose operators emit instructions on the
 spot. Such a function has no runtime branches or loops. A condition must be known from the types,
-like `lens is None`, or use choose(). It may call other emitted functions,
-but none of numba's.
+like `lens is None`, or use choose(). It may call other emitted functions, but none of numba's.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""The intersections of a ray with a triangle, a sphere, a box. traverse.py has the BVH.
+"""The intersections of a ray with a triangle, a sphere and a box. traverse.py has the BVH.
 
-Rays, shapes and arithmetic are float64; boxes are stored in float32, and a little too large.
+Rays, shapes and arithmetic are float64; boxes are stored in float32, and slightly too large.
 """
 
 from __future__ import annotations
@@ -14,26 +14,26 @@ from lucida.renderer.trace.compile.compiled import inlined
 
 from .vectors import dot, minus, plus, row, times
 
-HUGE = 1e290  # stands for 1 / 0: finite, because 0 * inf would be NaN
-ROUNDING = 1e-15  # of the coordinates: more than a few float64 roundings add up to
-BOX_ROUNDING = 1.2e-7  # of the boxes' coordinates: more than their rounding to float32
+HUGE = 1e290  # replaces 1 / 0; finite, because 0 * inf would be NaN
+ROUNDING = 1e-15  # relative to coordinates; more than a few float64 roundings
+BOX_ROUNDING = 1.2e-7  # relative to boxes' coordinates; more than their rounding to float32
 
 
 class BoxRay(NamedTuple):
     """A ray prepared for boxes. Columns of bounds: low x, y, z, high x, y, z."""
 
     inverse: tuple[float, float, float]  # 1 / direction
-    enter: tuple[int, int, int]  # for each axis, the column of the plane that the ray meets first
+    enter: tuple[int, int, int]  # for each axis, the column of the plane that the ray hits first
     enter_from: tuple[float, float, float]  # the origin, moved to make boxes a little larger
     leave_from: tuple[float, float, float]
 
 
 class ShearedRay(NamedTuple):
-    """A ray prepared for triangles: axis z is the one along which the ray goes farthest."""
+    """A ray prepared for triangles; axis z is that of the direction's largest component."""
 
-    axes: tuple[int, int, int]  # which coordinates are x, y and z
+    axes: tuple[int, int, int]  # the coordinates that become x, y and z
     origin: tuple[float, float, float]
-    shear: tuple[float, float, float]  # takes the direction to (0, 0, 1)
+    shear: tuple[float, float, float]  # maps the direction to (0, 0, 1)
 
 
 @inlined
@@ -47,7 +47,8 @@ def _inverse(x):
 def box_ray(origin, direction, extent):
     """Prepare a ray for boxes.
 
-    extent: the largest |coordinate| of the boxes, which with the origin's scales the slack.
+    extent: the largest |coordinate| of the boxes, which scales the slack together with the
+    origin's.
 
     The slack covers the rounding of boxes, of this test and of the triangle's, so that no box is
     missed whose triangle would be hit, even by a ray that runs in one of the box's faces.
@@ -92,28 +93,28 @@ def sheared_ray(origin, direction):
 
 @inlined
 def hit_triangle(shapes, i, ray):
-    """Return (t, b1, b2) where the ray's line meets triangle i; t is NaN where it does not.
+    """Return (t, b1, b2) of the ray's line in triangle i; t is NaN if it misses.
 
     shapes: float64 (n, 9), corners a, b, c, or NaN for a triangle that is never hit. b1, b2:
     barycentrics of b and c.
 
-    In sheared coordinates the ray is the z axis, and the question is whether the origin lies in a
-    triangle of the plane. Two triangles at a common edge compute exactly opposite numbers for it
-    (products commute, rounding is symmetric), and a rounded edge function is never of the wrong
-    sign, only 0, which counts as inside: no ray passes between them.
+    In sheared coordinates, the ray is the z axis, and the test is whether a triangle of the plane
+    contains the origin. Two triangles compute exactly opposite numbers for a common edge (products
+    commute, rounding is symmetric). A rounded edge function never has the wrong sign; it may only
+    become 0, which counts as inside. No ray therefore passes between the triangles.
     Source: Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", 2013.
     """
     x, y, z = ray.axes
     ox, oy, oz = ray.origin
     sx, sy, sz = ray.shear
 
-    # Corners relative to the origin, sheared.
+    # Shear the corners relative to the origin.
     az, bz, cz = shapes[i, z] - oz, shapes[i, 3 + z] - oz, shapes[i, 6 + z] - oz
     ax, ay = (shapes[i, x] - ox) - sx * az, (shapes[i, y] - oy) - sy * az
     bx, by = (shapes[i, 3 + x] - ox) - sx * bz, (shapes[i, 3 + y] - oy) - sy * bz
     cx, cy = (shapes[i, 6 + x] - ox) - sx * cz, (shapes[i, 6 + y] - oy) - sy * cz
 
-    # The three edge functions: of one sign inside, either way round.
+    # The three edge functions have the same sign inside, for either winding.
     e0 = cx * by - cy * bx
     e1 = ax * cy - ay * cx
     e2 = bx * ay - by * ax
@@ -123,14 +124,14 @@ def hit_triangle(shapes, i, ray):
     if area == 0.0:  # seen edge-on
         return np.nan, 0.0, 0.0
 
-    # t is a mean of the corners', weighted by the edge functions: never outside them.
+    # t is a mean of the corners' t weighted by the edge functions, and never outside their range.
     t = (e0 * az + e1 * bz + e2 * cz) * sz / area
     return t, e1 / area, e2 / area
 
 
 @inlined
 def hit_sphere(shapes, i, origin, direction, t_min, t_max):
-    """Return the least t within (t_min, t_max) where the ray meets sphere i; NaN if there is none.
+    """Return the least t within (t_min, t_max) of the ray's hits on sphere i; NaN if there is none.
 
     shapes: float64 (n, 9), of which centre and radius are used. A tangent ray counts as a hit.
     Source: Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere
@@ -140,12 +141,12 @@ def hit_sphere(shapes, i, origin, direction, t_min, t_max):
     f = minus(origin, row(shapes, i))
     a = dot(direction, direction)
     b = -dot(f, direction)
-    # The ray's point nearest to the centre tells whether it passes through.
+    # The ray passes through the sphere if its point nearest to the centre is inside.
     nearest = plus(f, times(b / a, direction))
     left_over = radius * radius - dot(nearest, nearest)
     if left_over < 0.0:
         return np.nan
-    # The root of larger magnitude first; the other follows without cancellation.
+    # Compute the root of larger magnitude first; the other follows without cancellation.
     q = b + math.copysign(math.sqrt(a * left_over), b)
     if q == 0.0:
         return np.nan

@@ -53,7 +53,7 @@ def _trace_blocks(view, scene, tree, stack, image, control):
 
 @inlined
 def viewing_ray(view, i, j, width, height):
-    """Return origin and direction of the ray through the centre of pixel (i, j), as Camera.ray."""
+    """Return origin and direction of the ray through pixel (i, j)'s centre, like Camera.ray()."""
     if view.directions.size > 0:
         seen = view.directions
         return view.eye, (seen[i, j, 0], seen[i, j, 1], seen[i, j, 2])

@@ -113,8 +113,8 @@ def _not_grazing(normal, direction):
 
 @inlined
 def albedo_at(scene, number, point, geometric, primitive, b1, b2):
-    """Return the diffuse reflectance of object `number`: the material's times its texture's
-    colour, or its checker's, times the vertices' colours."""
+    """Return the diffuse reflectance of object `number`: the material's times its texture's colour,
+    or its checker's, times the vertices' colours."""
     material = scene.materials[number]
     albedo = row(material, DIFFUSE_SHININESS)
     pattern = material[SPECULAR_CHECKERED, 3]

@@ -24,7 +24,7 @@ BASE, MORE = np.int64(0), np.int64(1)  # an object's rows of FlatScene.textures
 @inlined
 def place_at(scene, number, outward, primitive, b1, b2):
     """Return the texel coordinates of a hit on object `number`. outward: from a sphere's centre to
-    the hit; on a triangle, b1 and b2 say where it is."""
+    the hit; b1, b2: the place on a triangle."""
     if primitive < len(scene.faces):
         return _between_corners(scene.uv, scene.faces[primitive], b1, b2)
     return _on_sphere(scene.materials[number, PLACE], outward)
@@ -32,7 +32,7 @@ def place_at(scene, number, outward, primitive, b1, b2):
 
 @inlined
 def light_at_place(scene, number, first, x, y):
-    """Return the light, linear, of one of an object's images. first: its first texel."""
+    """Return the linear light of one of an object's images. first: its first texel."""
     texels, row = scene.texels, scene.textures[number, BASE]
     upper, lower, right, down = _four_texels(first, row[1], row[2], row[3], x, y)
     above = _mean(_light(texels[upper[0]]), _light(texels[upper[1]]), right)
@@ -42,7 +42,7 @@ def light_at_place(scene, number, first, x, y):
 
 @inlined
 def opacity_at_place(texels, first, width, height, wraps, x, y):
-    """Return by how much the opacity exceeds the cutout: less than 0 in a hole. Arrays or pointers.
+    """Return the opacity minus the cutout, negative in a hole. texels: an array or pointer.
 
     first: of the opacity's image, whose size and wraps follow.
     """
@@ -76,8 +76,9 @@ def _on_sphere(place, n):
 
 @inlined
 def _four_texels(first, width, height, wraps, x, y):
-    """Return the numbers of the four texels around a place, upper two and lower two, and how far
-    the place lies to the right of and below the middle of the first."""
+    """Return the numbers of the four texels around a place, upper two and lower two, and the
+    place's distances to the right of and below the middle of the first.
+    """
     width, height = np.int64(width), np.int64(height)
     wrap_u, wrap_v = wraps & _WRAPS, wraps >> WRAP_BITS
     column, row = math.floor(x - 0.5), math.floor(y - 0.5)

@@ -44,10 +44,10 @@ class Tree(NamedTuple):
 def closest_hit(tree, stack, origin, direction, t_min, t_max):
     """Return the closest hit along a ray: (t, primitive, b1, b2), or (inf, -1, 0, 0).
 
-    origin, direction: (3,) float64, world space; the direction need not be unit length. A
-    NaN direction hits nothing.
+    origin, direction: (3,) float64, world space; the direction need not be unit length. A NaN
+    direction hits nothing.
     A hit counts for t_min < t < t_max, 0 <= t_min. Of hits at the same t, the lowest primitive
-    number wins, whatever the tree. b1, b2: barycentrics of a triangle's second and third corner.
+    number wins in every tree. b1, b2: barycentrics of a triangle's second and third corner.
     stack: scratch of the calling thread, int32 and float64 (tree.stack_size,): the nodes that wait,
     and the parameters at which the ray enters them.
     Source: Pharr, Jakob and Humphreys, Physically Based Rendering, "Bounding Volume Hierarchies".

@@ -53,8 +53,8 @@ def are_blurred(
 ) -> bool:
     """Return True if any object's cells are too thin for hits with an error of `rounding` in t.
 
-    The rounding is relative to the object's largest t. to_t: maps a point relative to the eye to
-    t. back: the step of one t in parallel projection; None in perspective, where it is the ray's
+    The rounding is relative to the object's largest t. to_t: maps a point relative to the eye to t.
+    back: the step of one t in parallel projection; None in perspective, where it is the ray's
     direction.
     """
     if not len(cells.steepest):

@@ -54,7 +54,7 @@ class Effects(NamedTuple):
 def effects_of(shadows: bool, mirror_depth: int, bounds: np.ndarray) -> Effects:
     """Return the effects for a scene within bounds (2, 3).
 
-    The eye's distance does not matter: hits are relative to the point of the scene that is nearest
+    The eye's distance does not matter, because hits are relative to the point of the scene nearest
     to it.
     """
     away = AWAY * np.abs(bounds - bounds.mean(axis=0)).max()

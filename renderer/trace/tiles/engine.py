@@ -1,6 +1,6 @@
-"""A scene prepared for packets: flat arrays and trees, and the packet kernel run on them.
+"""A scene prepared for packets: flat arrays and trees, and the packet kernel that runs on them.
 
-Same interface as ReferenceEngine, many times faster.
+The interface is that of ReferenceEngine; the engine is many times faster.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ class PacketEngine:
         self._cells = cells_of(self._flat)
         self.instances = Instances(scene, self._flat, team)
 
-    # Kernels are compiled, or loaded from the cache, by tracing an image that is cancelled.
+    # Tracing a cancelled image compiles kernels, or loads them from the cache.
 
     def compile_lens(self) -> None:
         """Compile the kernels of a lens's table."""
@@ -90,7 +90,8 @@ class PacketEngine:
     def set_scene(self, scene: Scene) -> None:
         """Prepare another scene; unchanged meshes (the same arrays) keep their trees."""
         flat = flatten(scene, (self._scene, self._flat))
-        # All at once: flatten() must find the scene with its own arrays if this fails.
+        # Assign all at once, because flatten() must find the scene with its own arrays after an
+        # error.
         self._scene, self._flat, self._cells = scene, flat, cells_of(flat)
         self.instances.update(scene, self._flat)
 
@@ -110,7 +111,7 @@ class PacketEngine:
         directions = np.where(is_good, directions, np.float32(0))  # hits nothing
         t, primitives = self.closest_hits(origins, directions, t_min, t_max)
         light, origins = np.empty((len(t), 3), np.float32), np.ascontiguousarray(origins).view()
-        # Read-only: for writable arrays, the kernel would be compiled again.
+        # Make the arrays read-only, because the kernel would be compiled again for writable ones.
         origins.flags.writeable = directions.flags.writeable = False
         shade_rays(self._flat, origins, directions, t, primitives, light)
         return light

@@ -26,7 +26,7 @@ _ACROSS = BLOCK // TILE  # tiles of a block, in a row
 
 @kernel
 def trace_packets(camera, world, writing, finished, stack_size, control):
-    """Trace blocks of pixels until none are left, or the control array says to stop.
+    """Trace blocks of pixels until none are left, or the control array requests a stop.
 
     camera: PacketView. world: World. writing: the stage that writes a tile. finished: as in Image.
     control: see thread_pool.py.

@@ -2,10 +2,9 @@
 
 A triangle is three edge functions and a key (triangle.py), which are affine in the image. The edge
 functions are set up once, with 16 triangles in lanes; keys are set up only if some triangle may
-cover a pixel.
-When a leaf covers few pixels, each of them is tested against all triangles (by_pixels.py). Small
-triangles are tested at the pixels in their own rectangles (by_boxes.py), and large ones at the
-tile's squares (by_squares.py).
+cover a pixel. When a leaf covers few pixels, each of them is tested against all triangles
+(by_pixels.py). Small triangles are tested at the pixels in their own rectangles (by_boxes.py), and
+large ones at the tile's squares (by_squares.py).
 """
 
 from __future__ import annotations
@@ -47,7 +46,7 @@ def rasterize_leaf(view, world, leaf, space, tile, footprint, squares, depth, le
     by_pixels = pixels <= FEW_PIXELS and not has_holes
     by_boxes = pixels <= SOME_PIXELS and not has_holes
 
-    # Determine which triangles may cover a pixel: small ones, and large ones if their volume is
+    # Determine the triangles that may cover a pixel: small ones, and large ones if their volume is
     # positive (front), and if it is negative (back).
     zero = splat(np.float32(0))
     front = back = small = mask_of(0)

@@ -37,7 +37,7 @@ def set_frame(camera, frame, first, room, scratch):
     scratch.frame[0], scratch.frame[1], scratch.frame[2] = frame, room, frame - first
     ray, back, pinhole = _ray_of_tile(room, scratch), camera.lens.back, camera.ray
     for axis in range(3):
-        # The direction is z + x, y times the steps across and down.
+        # The pinhole's direction is z + x * across + y * down.
         z, x, y = pinhole[axis], pinhole[3 + axis], pinhole[6 + axis]
         for column in range(3):
             at = 9 * frame + column

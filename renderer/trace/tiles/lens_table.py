@@ -1,12 +1,12 @@
-"""The tiles of a lens's image: each has a pinhole camera of its own.
+"""The tiles of a lens's image, each with its own pinhole camera.
 
-A lens bends rays, but all of them start at the eye. Within a tile they differ little from the rays
-of a pinhole camera that looks at the tile's middle, and whose image is fitted to the tile's pixels:
-the tile's frame. In it, pixels lie next to a grid. Their exact places are stored, and edge
-functions are evaluated there, so the result is exact. A tile whose rays spread too far for one
-frame (in a small panorama) is divided among the six faces of a cube.
+A lens bends rays, but all of them start at the eye. Within a tile, they differ little from the rays
+of the tile's frame, a pinhole camera that looks at the tile's middle and whose image is fitted to
+the tile's pixels. Pixels are near a grid in it. Edge functions are evaluated at their exact places,
+which are stored, so the result is exact. A tile whose rays spread too far for one frame (in a small
+panorama) is divided among the six faces of a cube.
 
-The table does not depend on eye and basis: it is made once for a lens and a size.
+The table does not depend on eye and basis, so it is made once for a lens and a size.
 """
 
 from __future__ import annotations
@@ -40,17 +40,17 @@ F64 = NDArray[np.float64]
 class LensTable(NamedTuple):
     """The frames of an image's tiles, row by row.
 
-    first: int64, the first frame of each tile, and the number of all.
+    first: int64, the first frame of each tile, and the number of all frames.
     turn: float64, 9 a frame: the matrix, by rows, from the camera coordinates of the pinhole
         camera without the lens (view.py) to the frame's.
     back: its inverse.
-    bounds: float32, 4 a frame: the least x of a pixel in the tile's first column if all pixels were
-        displaced as the one that is farthest to the left; the largest x in the last; y likewise.
+    bounds: float32, 4 a frame: the least x of the tile's first column if all pixels had the largest
+        displacement to the left; the largest x of the last one if to the right; y likewise.
     least_ahead: float32, the least `ahead` of a frame.
     right, down: float32, 256 a frame, 16 a square: a pixel's place in the frame, relative to its
         square's first place on the grid.
-    ahead: float32, the frame's Z of a pixel's direction; NaN for pixels that are outside of the
-        lens, outside of the image, or in another frame of the tile.
+    ahead: float32, the frame's Z of a pixel's direction; NaN for pixels outside the lens or the
+        image, or in another frame of the tile.
     """
 
     first: NDArray[np.int64]
@@ -63,7 +63,7 @@ class LensTable(NamedTuple):
     ahead: F32
 
 
-# A table that has the types of every table, to compile kernels for.
+# A table with the types of all tables, for compiling kernels.
 NO_FRAMES = LensTable(
     np.zeros(2, np.int64), *(np.empty(0, kind) for kind in ["f8"] * 2 + ["f4"] * 5)
 )
@@ -151,7 +151,7 @@ def _frames(rays: F64, pinhole: F64) -> tuple[NDArray[Any], ...]:
 
 @kernel
 def _axes(rays):
-    """Return the mean direction of each tile's rays, and the least cosine between it and one."""
+    """Return the mean direction of each tile's rays, and its least cosine with any of them."""
     across, count = rays.shape[1] // TILE, rays.shape[0] * rays.shape[1] // _PIXELS
     axis, cosine = np.zeros((count, 3)), np.ones(count)
     for tile in range(count):
@@ -177,7 +177,7 @@ def _axes(rays):
 
 class _Fit(NamedTuple):
     """An affine map from a frame's plane to the tile's grid. It maps (x, y) to (column, row), and
-    any point (x', y') to
+    any other point (x', y') to
 
     (column + a (x' - x) + b (y' - y), row + c (x' - x) + d (y' - y)).
     """
@@ -209,7 +209,7 @@ def _fit(rays, tile, face, turned, widest):
         for k in range(_PIXELS):
             ray = _ray(rays, top, left, k)
             is_own = face[frame] < 0 or _face_of(ray) == face[frame]
-            # NaN outside of the lens, and in other frames of the tile.
+            # NaN outside the lens, and in other frames of the tile.
             ahead[k] = _along(turned, frame, 2, ray) if is_own else np.nan
             x[k] = _along(turned, frame, 0, ray) / ahead[k]
             y[k] = _along(turned, frame, 1, ray) / ahead[k]

@@ -114,8 +114,8 @@ def _plane_depths(view, corner, slot, space, points):
 
 @emitted
 def _sphere_depths(view, spheres, sphere, points, z):
-    """Return Z of the rays' hits on a sphere, F64. z: the packet's depths, which select the
-    root.
+    """Return Z of the rays' hits on a sphere, F64.
+    z: the packet's depths, which select the root.
     """
     f, d = sphere_ray(view, spheres, sphere, points.x, points.y)
     m = moment(f, d)

@@ -129,9 +129,8 @@ def find_surfaces(
 ):
     """Return (Surface, objects, primitives) of a square's pixels; the numbers are I32, -1 for none.
 
-    scene: SceneArrays. points: the pixels' image points; None for rays that are not the
-    view's. depth: Z of the hits, or t for other rays. wants_primitives: False to leave the
-    primitives out.
+    scene: SceneArrays. points: the pixels' image points; None for rays that are not the view's.
+    depth: Z of the hits, or t for other rays. wants_primitives: False to leave the primitives out.
     """
     seen = load(scratch.hit_slot, LANES * square)
     owner = load(scratch.hit_instance, LANES * square)

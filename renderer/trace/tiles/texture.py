@@ -1,7 +1,7 @@
 """Textures on a square's 16 pixels, in float32 lanes.
 
-This module computes wrapped texel coordinates between a triangle's vertices or on a sphere, and
-the light of four texels. Scenes without textures are compiled without any of it. The formulas are
+This module computes wrapped texel coordinates between a triangle's vertices or on a sphere, and the
+light of four texels. Scenes without textures are compiled without any of it. The formulas are
 reference/texture.py's.
 """
 

@@ -1,7 +1,7 @@
 """A tile: a square of 16 x 16 pixels, whose rays are traced as one packet.
 
 A packet visits a node of the tree once for all of its 256 rays. Its rays fill a pyramid
-(perspective) or a prism (parallel) with four sides; a box entirely outside of one side is missed by
+(perspective) or a prism (parallel) with four sides; a box entirely outside one side is missed by
 all of them. One vector holds the same plane of a node's 16 boxes, so they are all tested at once.
 
 Sources: Reshetov, Soupikov and Hurley, "Multi-Level Ray Tracing Algorithm", 2005; Wald, Boulos and

@@ -3,9 +3,9 @@
 In homogeneous coordinates (X, Y, H) of the image, the function
     e(x, y) = (P x Q) . (x, y, 1)
 is 0 on the line through the corners P and Q and positive on one side. A pixel is covered if the
-three edges' functions have the sign of the triangle's volume. No corner is divided by its H,
-so nothing special happens where a triangle crosses the eye's plane. The key K of its plane is
-affine in (x, y) as well.
+three edges' functions have the sign of the triangle's volume. No corner is divided by its H, so
+nothing special happens where a triangle crosses the eye's plane. The key K of its plane is affine
+in (x, y) as well.
 
 The test is watertight: two triangles compute exactly opposite numbers at a shared edge, so that no
 pixel is on the outer side of both. Therefore the edge functions are built of sums and differences
@@ -176,10 +176,10 @@ def key_function(view, a, b, c, ha, hb, hc):
 def key_function_exact(view, corner, leaf, space, tile, pa, pb, pc):
     """Return (coefficients of the key, sign of the volume), computed in float64, then rounded.
 
-    The key is -inf for a triangle seen edge-on, and for one so small or so far away that
-    float32 merges two of its corners into one point, or all three into one line. pa, pb, pc: its
-    corners as for edge_function(), whose result is then 0 everywhere or only rounding, so that the
-    triangle would cover a line or the whole image.
+    The key is -inf for a triangle seen edge-on, and for one so small or so far away that float32
+    merges two of its corners into one point, or all three into one line. pa, pb, pc: its corners as
+    for edge_function(), whose result is then 0 everywhere or only rounding, so that the triangle
+    would cover a line or the whole image.
     """
     a, b, c = _camera_corners_exact(view, corner, leaf, space, tile)
     one = to_f64(splat(np.float32(1)))

@@ -10,8 +10,8 @@ has the camera coordinates (X, Y, Z), affine in p, such that
     perspective: p is seen at (X / Z, Y / Z);   parallel: p is seen at (X, Y).
 
 With H = Z in perspective and H = 1 in parallel projection, (X, Y, H) are homogeneous coordinates of
-the image point in both projections. The key K, 1 / Z in perspective and -Z in parallel
-projection, is largest at the nearest hit, and on a plane it is an affine function of (x, y).
+the image point in both projections. The key K, 1 / Z in perspective and -Z in parallel projection,
+is largest at the nearest hit, and on a plane it is an affine function of (x, y).
 
 An instance only needs other rows: camera_from_object = camera_from_world world_from_object.
 """
@@ -204,8 +204,9 @@ def _rows(
 
 
 def _backs(rows: NDArray[np.float64], instances: Instances) -> NDArray[np.float32]:
-    """Return PacketView.back. The instance's own space decides the front, even if it is
-    mirrored.
+    """Return PacketView.back.
+
+    The instance's own space decides the front, even if it is mirrored.
     """
     is_single = np.append(instances.world.attributes & IS_SINGLE_SIDED > 0, False)
     linear = rows[:, ROW_X:EXTENT].reshape(-1, 3, 4)[..., :3]

@@ -74,8 +74,8 @@ def push_children(view, children, child, node, top, scratch):
 
 @inlined
 def walk_world(view, world, tile, least, scratch):
-    """Trace the scene for the tile: the upper tree, spheres and instances. least: the tile's
-    least key."""
+    """Trace the scene for the tile: the upper tree, spheres and instances. least: the tile's least
+    key."""
     space = world.instances
     _push(0, ANY_DEPTH, world.top, WHOLE_TILE, scratch)
     if world.top == 0:

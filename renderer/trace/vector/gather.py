@@ -1,4 +1,4 @@
-"""Loads from memory at an index of each lane's own, and prefetches (memory.py has whole vectors).
+"""Load from memory at a separate index for each lane, and prefetch (memory.py has whole vectors).
 
 Indices are not checked.
 """
@@ -53,7 +53,7 @@ def gather(array, index, mask):
 
 
 def _lane_addresses(builder: Any, first: Any, index: Any) -> list:
-    """Return the addresses of first[index[lane]], lane by lane; first: the address of 32-bit
+    """Return the addresses of first[index[lane]], lane by lane. first: the address of 32-bit
     integers.
     """
     lanes = [builder.extract_element(index.llvm, ir.Constant(INT32, k)) for k in range(LANES)]

@@ -3,11 +3,11 @@
 numba has no vector types, but LLVM below it has. This module adds four types to numba (F32, F64,
 I32 and MASK, 16 lanes each), their operators, and the functions below, so that a kernel can write
 `fma(ex, x, fma(ey, y, e1)) >= 0` for 16 pixels at once. LLVM maps a vector to one AVX-512
-register, to two of AVX or to four of SSE or NEON: only its generic operations are used, no
-processor-specific intrinsics.
+register, to two of AVX or to four of SSE or NEON, because only its generic operations are used, and
+no processor-specific intrinsics.
 
-No fast-math flags: nothing is reassociated, which watertight intersection relies on. Only fma()
-is fused, and only on processors that support it: see there.
+There are no fast-math flags, because watertight intersection relies on the order of operations.
+Only fma() is fused, and only on processors that support it.
 
 Kernels refer to these functions at module level, so that they can be cached.
 """
@@ -129,8 +129,8 @@ def inverse_root(x):
 
 
 def _extreme(sign: str, x: Any, y: Any) -> Any:
-    """Return the code of the minimum or maximum; y if either is NaN. A single instruction on
-    processors that have one.
+    """Return the code of the minimum or maximum; y if either is NaN. It is a single
+    instruction on processors that have one.
     """
     return _of_vectors(lambda b, x, y: b.select(b.fcmp_ordered(sign, x, y), x, y), x, y)
 
@@ -209,8 +209,8 @@ def _permutation(lanes: list[int]) -> Any:
     return instruction(define)
 
 
-# Permutations: swap the quarters of each half; 1 2 0 3 within each quarter; the first, or the last,
-# lane of each quarter in all its lanes.
+# Permutations that swap the quarters of each half, reorder each quarter to 1 2 0 3, and repeat the
+# first, or the last, lane of each quarter.
 quarters_swapped = _permutation([lane ^ 4 for lane in range(LANES)])
 next_of_three = _permutation([lane + (1, 1, -2, 0)[lane % 4] for lane in range(LANES)])
 first_of_four = _permutation([lane & ~3 for lane in range(LANES)])

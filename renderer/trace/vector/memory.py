@@ -1,7 +1,7 @@
 """Loads and stores of vectors of 16 lanes, for kernels in explicit SIMD (lanes.py).
 
-Addresses, whole vectors, and squares of an image; gather.py has gathers. Only LLVM's generic
-operations are used. Indices are not checked.
+This module has addresses, whole vectors, and squares of an image; gather.py has gathers. Only
+LLVM's generic operations are used. Indices are not checked.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ from .types import (
 def pointer(array):
     """Return the address of a contiguous array, which is indexed like the flattened array.
 
-    Inside kernels, arrays are passed as pointers: an array is seven numbers and a reference count,
-    which make a function per stage slow to compile and to run. numba frees an array made in the
-    kernel after the last use of its name, so take its pointer in the loop that uses it.
+    Kernels pass arrays as pointers, because an array is seven numbers and a reference count, which
+    make functions slow to compile and to run. numba frees an array made in the kernel after the
+    last use of its name, so take its pointer in the loop that uses it.
     """
     return contiguous(array.kind), lambda builder: first_address(builder, array)
 
@@ -62,7 +62,7 @@ def pointers(data):
 
 @instruction
 def shifted(array, index):
-    """Return the pointer to array[index], for a pointer."""
+    """Return the pointer to array[index]. array: a pointer."""
     array_kind(array.kind)
     return array.kind, lambda builder: element_address(builder, array, index)
 
@@ -114,7 +114,7 @@ def stack_room(kind: Any, count: int) -> Any:
 
 @instruction
 def as_int32(array):
-    """Return a pointer to 32-bit numbers as a pointer to int32, to the same memory."""
+    """Return a pointer to 32-bit numbers as a pointer to int32 in the same memory."""
     return CPointer(types.int32), lambda b: b.bitcast(array.llvm, INT32.as_pointer())
 
 
@@ -178,7 +178,7 @@ def store_half(array, index, vector):
 
 @instruction
 def stream(array, index, vector):
-    """Like store(), bypassing the caches: for whole lines of 64 bytes that are not read soon.
+    """Store a vector past the caches, for whole lines of 64 bytes that are not read soon.
 
     This saves reading the line first, and does not evict other data. The address must be a multiple
     of 64 bytes; see is_line().
@@ -204,7 +204,7 @@ def is_line(array, index):
     return types.boolean, emit
 
 
-# Squares of 4 x 4 pixels to images: row r of the square goes to array[index + r * stride].
+# Store squares of 4 x 4 pixels in images: row r of the square goes to array[index + r * stride].
 
 
 @instruction

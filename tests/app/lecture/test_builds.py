@@ -167,7 +167,7 @@ def test_one_line_says_what_to_change():
         f"{STEP}{STEP}answer = 'a'\nlow = true\n{STEP}links.b.c = 1\nhighlight = ['eye']\n"
     )
     (note,) = lecture.summary
-    assert note.startswith("x.toml:6: steps[1].answer: is of an older format: write what")
+    assert note.startswith("x.toml:6: steps[1].answer: is of an older format: write later")
     one = f"{STEP}answer = 'a'\noptions.outside.see = 'all'\noptions.pair.value = 'r'\n"
     (note,) = read(one).summary
     assert note.endswith("are ignored (and 2 more: lucida lecture x.toml --check)")

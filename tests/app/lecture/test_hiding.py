@@ -228,7 +228,7 @@ def test_the_solution_turns_the_object_as_it_was():
         ("[0.5, 0, 3.5]", "[inf, 0, 3.5]", ":22: {}.answer: inf is not finite"),
         ("[0.5, 0, 3.5]", "[1e11, 0, 3.5]", ":22: {}.answer: is not correct: The ball is not in"),
         ("[-1, 0, 1]", "[0.5, 0, 3.5]", ":20: {}.object: 'box' is hidden before anything is mov"),
-        ("[1, 0, -1]", "[1, 0, 30]", ":21: {}.hidden: 'box' is not in the picture; put it before"),
+        ("[1, 0, -1]", "[1, 0, 30]", ":21: {}.hidden: 'box' is not in the picture; put it in fro"),
     ],
 )  # fmt: skip
 def test_checking_a_lecture_tries_the_answer(line, wrong, told, tmp_path, capsys):

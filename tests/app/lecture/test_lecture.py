@@ -61,8 +61,8 @@ def test_a_lecture_counts_pixels_in_one_way():
     with_two = FILE.replace("author =", "pixels_from = 2\nauthor =")
     for text, told in (
         (last.replace("[2, 3]\nsize", "[3, 3]\nsize"), "4x3; give a row up to 2 and a"),
-        (FILE.replace("[1, 3]", "[0, 3]"), "no pixel; give row and column, from 1"),
-        (from_zero.replace("[1, 3]", "[-1, 3]"), "no pixel; give row and column, from 0"),
+        (FILE.replace("[1, 3]", "[0, 3]"), "not a pixel; give row and column, from 1"),
+        (from_zero.replace("[1, 3]", "[-1, 3]"), "not a pixel; give row and column, from 0"),
         (with_two, r"x\.toml:3: pixels_from: "),
         (FILE.replace("options.shadows = true", "options.one_based = false"),
          r"x\.toml:26: steps\[0\]\.options\.one_based: differs from pixels_from = 1; leave it"),
@@ -134,7 +134,7 @@ def test_mistakes_of_the_whole(tmp_path):
         ('title = "x"\nsteps = [1]', r"x.toml:2: steps[0]: is a whole number; give a table"),
         ('title = ""\n[[steps]]\ntitle = "x"', "x.toml:1: title: is empty"),
         ("title = ", "x.toml:1: column 9: invalid value"),
-        ("\nlucida = 2", "x.toml:2: lucida: the file is of version 2"),
+        ("\nlucida = 2", "x.toml:2: lucida: the file has version 2"),
     ):
         with pytest.raises(LucidaError) as error:
             read(text)

@@ -336,7 +336,7 @@ def test_a_broken_model_is_named_with_its_place_in_the_scene(tmp_path: Path) -> 
     with pytest.raises(LucidaError) as caught:
         load_scene(path)
     assert str(caught.value).startswith(
-        f"{path}: objects[0].file: {tmp_path / 't.obj'}: line 5: 'f 1 2 4' is no line"
+        f"{path}: objects[0].file: {tmp_path / 't.obj'}: line 5: 'f 1 2 4' is not valid"
     )
 
 

@@ -93,16 +93,16 @@ def test_view_files_too(tmp_path: Path) -> None:
             TRIANGLE + "f 1 2\n",
             "line 4: 'f 1 2' is not valid in an OBJ with 3 vertices; repair",
         ),
-        (TRIANGLE + "f 1 2 9\n", "line 4: 'f 1 2 9' is no line"),
-        (TRIANGLE + "f 1 2 -4\n", "line 4: 'f 1 2 -4' is no line"),
-        ("v a b c\n" + TRIANGLE + "f 1 2 3\n", "line 1: 'v a b c' is no line"),
+        (TRIANGLE + "f 1 2 9\n", "line 4: 'f 1 2 9' is not valid"),
+        (TRIANGLE + "f 1 2 -4\n", "line 4: 'f 1 2 -4' is not valid"),
+        ("v a b c\n" + TRIANGLE + "f 1 2 3\n", "line 1: 'v a b c' is not valid"),
         ("v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "vertices: 1 of 3 are NaN or too large"),
         ("v 0 0 0\nv 1e-7 0 0\nv 0 1e-7 0\nf 1 2 3\n", "is too small, 1.41421e-07 across"),
         (
             TRIANGLE + "f 1///1 2 3\nf 1 2 3\n",
             "cannot be read as OBJ; export it again",
         ),
-        ("v 0 0 0\nv 1 0 0 # of 0,5\nv 0 1,5 0\nf 1 2 3\n", "line 3: 'v 0 1,5 0' is no line"),
+        ("v 0 0 0\nv 1 0 0 # of 0,5\nv 0 1,5 0\nf 1 2 3\n", "line 3: 'v 0 1,5 0' is not valid"),
     ],
 )
 def test_obj(text: str, message: str, tmp_path: Path) -> None:
@@ -197,10 +197,10 @@ def test_stl(content: str | bytes, message: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("OFF\n-3 -1 0\n0 0 0\n", "does not hold what its OFF header"),
-        ("OFF\n3000000000 1000000000 0\n0 0 0\n", "does not hold what its OFF header"),
+        ("OFF\n-3 -1 0\n0 0 0\n", "does not hold the data that its OFF header"),
+        ("OFF\n3000000000 1000000000 0\n0 0 0\n", "does not hold the data that its OFF header"),
         ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 9\n", "faces: use vertex 9 of 3"),
-        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n", "does not hold what its OFF header"),
+        ("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1\n3 0 1 2\n", "does not hold the data that its OFF header"),
         ("3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "does not begin with OFF"),
         ("4OFF\n1 1 1\n", "does not begin with OFF"),
     ],

@@ -222,7 +222,7 @@ def test_a_texture_needs_places_on_a_mesh(tmp_path: Path) -> None:
     ):
         scene_file(tmp_path, "texture = 'a.png'", "type = 'model'\nfile = 't.obj'")
     mesh = Mesh(CORNERS, [(0, 1, 2)])
-    with pytest.raises(LucidaError, match="the mesh no texture coordinates"):
+    with pytest.raises(LucidaError, match="the mesh has no texture coordinates"):
         SceneObject(mesh, Material(texture=Texture(slopes(2, 2))))
 
 

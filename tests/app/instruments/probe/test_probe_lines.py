@@ -213,7 +213,7 @@ def test_a_light_behind_the_surface_and_one_that_is_too_bright():
         "= 2^(-1) (3.9979, 0.5372, 0.2686) = (1.9990, 0.2686, 0.1343)",
     ]
     # What is shown is the least of it and 1: without that the equation would be none.
-    assert names["display"] == "display value, linear; what is above 1 is cut off"
+    assert names["display"] == "display value, linear; values above 1 are cut off"
     assert lines["display"] == [
         "vec(C) = min(1, vec(L)')",
         "= min(1, (1.9990, 0.2686, 0.1343)) = (1.0000, 0.2686, 0.1343)",

@@ -145,9 +145,9 @@ def test_a_camera_that_no_rotation_holds_is_refused() -> None:
 
 PLAIN = PosedCamera(Camera(), (64, 64))
 REFUSED = [
-    *((name, [replace(PLAIN, size=None)], "size: is not known") for name in PERSPECTIVE_ONLY),
+    *((name, [replace(PLAIN, size=None)], "size: is unknown") for name in PERSPECTIVE_ONLY),
     *((name, [PLAIN] * 2, "holds 2 cameras") for name in ("opencv", "opengl")),
-    ("opengl", [PosedCamera(Camera(), fit=True)], "^size: is not known"),
+    ("opengl", [PosedCamera(Camera(), fit=True)], "^size: is unknown"),
     ("opencv", [replace(PLAIN, camera=Camera(projection="parallel"))], "^projection: 'parallel'"),
     ("gltf", [PosedCamera(Camera(viewport=(-0.5, 0.7, -0.5, 0.5)))],
      "^viewport: .* is off the middle by 0.0833 of its width"),

@@ -151,7 +151,7 @@ BROKEN = {
 
 
 
-    "type": (tree({"type": "fisheye"}), r"cameras\[0\]\.type: 'fisheye' is neither"),
+    "type": (tree({"type": "fisheye"}), r"cameras\[0\]\.type: 'fisheye' is not"),
 
     "nobody": (tree(nodes=[{"camera": 3}]), r"cameras: names entry 3"),
 

@@ -208,7 +208,7 @@ def test_kalibrs_fov_and_a_float_as_a_switch(tmp_path: Path) -> None:
     ("name", "content", "complaint"),
     [
         ("a.yaml", KALIBR.replace(": pinhole", ": omni"), "cam0.camera_model: 'omni' is a lens"),
-        ("a.json", {"fx": 5, "fy": 5, "cx": 5, "cy": 5, "xi": 1.2}, "xi: 1.2 is of a mirror"),
+        ("a.json", {"fx": 5, "fy": 5, "cx": 5, "cy": 5, "xi": 1.2}, "xi: 1.2 is for a mirror"),
         ("a.ini", INI.replace("500.0 0.0 330.0\n", ""), "camera matrix: has 6 numbers"),
     ],
 )

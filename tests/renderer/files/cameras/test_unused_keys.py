@@ -40,7 +40,7 @@ GLTF: dict[str, Any] = {
          "not used: key0, key1, key2, key3, key4, key5, key6, key7 and 2 more"),
         (OPENGL | {"modelMatrix": AT_REST}, "not used: modelMatrix"),
         (GLTF | {"animations": [{}]},
-         "animations are not used: the cameras are where their nodes are at rest"),
+         "animations are not used: the cameras are at their nodes' resting places"),
         (GLTF | {"cameras": 2 * GLTF["cameras"]},
          "cameras[1] is not used: no node of the scene holds it"),
     ],
