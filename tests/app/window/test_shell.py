@@ -7,7 +7,7 @@ from lucida.app.window.shell import REDRAWN, Shell
 
 def test_frames_are_requested_until_the_division_rests():
     """Otherwise an idle window shows a division that is under way, as after F9."""
-    shell, window = Shell([], Mock(), Mock(), Mock()), Mock(has_tools=True)
+    shell, window = Shell([], None, Mock()), Mock(has_tools=True)
 
     def requested():
         window.animate.reset_mock()
