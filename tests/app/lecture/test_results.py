@@ -62,7 +62,7 @@ def test_what_is_answered_is_read_with_the_step_that_explains_it(lecture, tmp_pa
 def test_a_file_of_something_else_is_not_written_to(tmp_path):
     path = tmp_path / "thesis.txt"
     path.write_text("Chapter 1\n")
-    with pytest.raises(LucidaError, match="something else"):
+    with pytest.raises(LucidaError, match="another kind"):
         AnswerLog(path)
     assert path.read_text() == "Chapter 1\n"
     path.write_text("")
