@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import moderngl
 import numpy as np
@@ -99,6 +99,31 @@ def _show_scene(
     cover(screen, linear_color=0, exposure=exposure_factor(exposure_ev), target_size=size)
 
 
+class ShownScene(NamedTuple):
+    """A picture of the scene, and how to display it.
+
+    mean: its colour with smooth edges, from gather(). number: a value that differs whenever the
+    picture differs; None if unknown.
+    """
+
+    textures: Textures
+    mean: moderngl.Texture | None = None
+    exposure_ev: float = 0.0
+    number: Hashable = None
+
+
+class PlacedPicture(NamedTuple):
+    """A picture of display values to place on a plane in the scene.
+
+    moves: it may have jagged edges, to be drawn faster.
+    """
+
+    plane: Plane
+    picture: moderngl.Texture
+    opacity: float = 1.0
+    moves: bool = False
+
+
 class Overlay:
     """A renderer of outside views in a context, which must be current. Raises LucidaError."""
 
@@ -139,56 +164,46 @@ class Overlay:
 
     def draw(
         self,
-        scene: Textures,
+        scene: ShownScene,
         camera: Camera,
         size: Size,
         layers: Sequence[Layer],
-        plane: Plane | None = None,
-        picture: moderngl.Texture | None = None,
-        exposure_ev: float = 0.0,
-        opacity: float = 1.0,
         unit_px: float = 1.0,
-        mean: moderngl.Texture | None = None,
-        number: Hashable = None,
+        placed: PlacedPicture | None = None,
         cloud: CloudPicture | None = None,
-        moves: bool = False,
     ) -> moderngl.Texture:
         """Draw the view. Return an 8-bit picture of `size`, which the next call overwrites.
 
-        scene: drawn by `camera`, at `size` or smaller. mean: the scene's colour with smooth edges,
-        from gather(). plane, picture: the picture to place in the scene, as display values. A plane
-        without a picture hides nothing. unit_px: the unit of dashes and edges. number: a value that
-        differs whenever the scene's picture differs; None if unknown. cloud: of this size, by the
-        same camera; below the layers. moves: the placed picture may have jagged edges, to be drawn
-        faster.
+        scene: drawn by `camera`, at `size` or smaller. unit_px: the unit of dashes and edges.
+        cloud: of this size, by the same camera; it is drawn below the layers.
         """
         gl = self._gl
         drawn, framebuffer = self._targets["shown"].of_size(size)
-        has_plane = plane is not None and picture is not None
         shared: dict[str, Any] = {
             "surface": 1,
             "perspective": float(not camera.is_parallel),
             "half_size": (size[0] / 2, size[1] / 2),
-            "has_plane": has_plane,
+            "has_plane": placed is not None,
         }
-        if plane is not None:
+        if placed is not None:
+            plane = placed.plane
             # OpenGL's matrices are column-major, so transpose NumPy's.
             shared["plane_from_screen"] = tuple(plane.from_screen.T.ravel().tolist())
             shared["plane_box"] = plane.box
             shared["plane_depth"] = tuple(plane.depth.tolist())
         with plain_state(gl, 5):
-            shown = self._scene_shown(mean or scene.color, size, exposure_ev, number)
+            shown = self._scene_shown(scene, size)
             gl.copy_framebuffer(framebuffer, shown)
             try:
                 framebuffer.color_mask = True, True, True, False  # the target stays opaque
                 framebuffer.use()  # applies the mask
-                scene.surface.use(1)
+                scene.textures.surface.use(1)
                 gl.enable_only(moderngl.BLEND)
-                if plane is not None and picture is not None:
-                    picture.use(2)
-                    light = 1.0 if plane.is_front else BACK_LIGHT
-                    values = {"opacity": opacity, "picture_light": light}
-                    place = self._place[moves]
+                if placed is not None:
+                    placed.picture.use(2)
+                    light = 1.0 if placed.plane.is_front else BACK_LIGHT
+                    values = {"opacity": placed.opacity, "picture_light": light}
+                    place = self._place[placed.moves]
                     set_uniforms(place.program, **shared, picture=2, **values)
                     gl.blend_func = BLENDING
                     place.render(moderngl.TRIANGLE_STRIP, vertices=4)
@@ -204,14 +219,13 @@ class Overlay:
                 framebuffer.color_mask = True, True, True, True
         return drawn
 
-    def _scene_shown(
-        self, linear: moderngl.Texture, size: Size, exposure_ev: float, number: Hashable
-    ) -> moderngl.Framebuffer:
+    def _scene_shown(self, scene: ShownScene, size: Size) -> moderngl.Framebuffer:
         """Return the scene after the display transform, recomputed only if necessary."""
         _, framebuffer = self._targets["scene"].of_size(size)
-        if number is None:
+        if scene.number is None:
             self._shown.forget()
-        self._shown(self._show, framebuffer, linear, number, exposure_ev)
+        linear = scene.mean or scene.textures.color
+        self._shown(self._show, framebuffer, linear, scene.number, scene.exposure_ev)
         return framebuffer
 
     def release(self) -> None:

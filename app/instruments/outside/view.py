@@ -23,7 +23,7 @@ from lucida.app.images.renderers import look_of
 from lucida.app.images.request import ImageRequest
 from lucida.app.images.screen import available_px
 from lucida.app.state.app_state import AppState
-from lucida.app.state.options.shared import Pixel
+from lucida.app.state.options.shared import ImageOptions, Pixel
 from lucida.app.ui import theme
 from lucida.app.ui.areas import focused_steps, mouse_area
 from lucida.app.ui.host import Host
@@ -32,13 +32,12 @@ from lucida.app.ui.theme import framebuffer_scale
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 from lucida.renderer.camera.navigation import orbited
-from lucida.renderer.raster.overlay import Overlay
+from lucida.renderer.raster.overlay import Overlay, PlacedPicture, ShownScene
 from lucida.renderer.scene.model import Scene
 from lucida.renderer.system.errors import LucidaError, describe
 from lucida.renderer.system.memo import Memo
 
 from .camera_diagram import Content
-from .cloud import Cloud
 from .cloud_layer import CloudLayer
 from .diagram import Item
 from .extensions import Extension, Extensions
@@ -70,6 +69,14 @@ class Tools(NamedTuple):
     ground: Ground
     layer: CloudLayer
     hits: RayPictures[dict[Pixel, float]]
+
+
+class Shown(NamedTuple):
+    """The images' display: the live image on the plane, the display's options, and the theme."""
+
+    live: Hashable
+    images: ImageOptions
+    theme: Hashable
 
 
 class Drawing(NamedTuple):
@@ -271,8 +278,9 @@ class OutsideView(Instrument):
         near, units = nearest(camera, scope), units_px(scope.extent)
         content = self.content(host, OutsideScreen(camera, size, near, *units))
         return self._drawn(
-            tools, ground, content, near, units, extensions.items, extensions.cloud, picture,
-            state.images.exposure_ev, (live, state.images, theme.used()),
+            tools, ground, content, (near, *units),
+            Extension(extensions.items, extensions.cloud, picture),
+            Shown(live, state.images, theme.used()),
             moves or ground.factor > 1 or both.unfinished(state),
         )  # fmt: skip
 
@@ -310,29 +318,26 @@ def _drawn(
     tools: Tools,
     ground: GroundPicture,
     content: Content,
-    near: float,
-    units: tuple[float, float],
-    items: tuple[Item, ...],
-    cloud: Cloud | None,
-    picture: moderngl.Texture | None,
-    exposure_ev: float,
-    number: Hashable,
+    scale: tuple[float, float, float],
+    added: Extension,
+    shown: Shown,
     moves: bool,
 ) -> Drawing:
     """Draw the view's picture.
 
-    number: identifies what else it shows: the content of the picture on the image plane, the
-    display transform, the theme.
+    scale: near, unit_px and symbol_px of the screen. added: with the picture on the image plane.
     """
     camera, size, scene = ground.request.camera, ground.request.size, ground.request.scene
-    screen = OutsideScreen(camera, size, near, *units)
-    primitives = tuple(project([*grown_diagram(content), *items], screen))
-    behind = ground_of(scene.background, exposure_ev)
+    screen, exposure_ev = OutsideScreen(camera, size, *scale), shown.images.exposure_ev
+    primitives = tuple(project([*grown_diagram(content), *added.items], screen))
+    behind, placed = ground_of(scene.background, exposure_ev), None
+    plane = image_plane(content.camera, camera, size)
+    if plane is not None and added.picture is not None:
+        placed = PlacedPicture(plane, added.picture, content.options.image_opacity, moves)
     texture = tools.overlay.draw(
-        ground.textures, camera, size, layers(primitives, behind),
-        image_plane(content.camera, camera, size), picture, exposure_ev,
-        content.options.image_opacity, screen.unit_px, ground.mean, ground,
-        tools.layer.picture(cloud, screen, behind), moves=moves,
+        ShownScene(ground.textures, ground.mean, exposure_ev, ground), camera, size,
+        layers(primitives, behind), screen.unit_px, placed,
+        tools.layer.picture(added.cloud, screen, behind),
     )  # fmt: skip
     return Drawing(texture, primitives)
 

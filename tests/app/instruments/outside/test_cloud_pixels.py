@@ -16,7 +16,7 @@ from lucida.app.instruments.outside.paint import role_color
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.raster import Rasterizer
-from lucida.renderer.raster.overlay import CLOUD_HIDDEN, Overlay
+from lucida.renderer.raster.overlay import CLOUD_HIDDEN, Overlay, ShownScene
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 
@@ -48,7 +48,7 @@ def a_cloud(
 
 
 def drawn(
-    rasterizer: Rasterizer, cloud: Cloud, camera: Camera, scene: Scene = EMPTY, **more: Any
+    rasterizer: Rasterizer, cloud: Cloud, camera: Camera, scene: Scene = EMPTY
 ) -> NDArray[np.int64]:
     """The view's pixels, (height, width, 3)."""
     rasterizer.set_scene(scene)
@@ -58,7 +58,7 @@ def drawn(
         try:
             textures = rasterizer.draw(camera, SIZE, "outside")
             picture = layer.picture(cloud, screen, GROUND)
-            texture = overlay.draw(textures, camera, SIZE, [], cloud=picture, **more)
+            texture = overlay.draw(ShownScene(textures), camera, SIZE, [], cloud=picture)
             rows = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert rows[..., 3].min() == 255  # ImGui blends it
             return rows[..., :3].astype(int)

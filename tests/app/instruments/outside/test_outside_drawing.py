@@ -16,7 +16,13 @@ from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.ui import contrast, palettes, theme
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.raster import Rasterizer
-from lucida.renderer.raster.overlay import Overlay, Plane, plane_on_screen
+from lucida.renderer.raster.overlay import (
+    Overlay,
+    PlacedPicture,
+    Plane,
+    ShownScene,
+    plane_on_screen,
+)
 from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 
@@ -68,13 +74,12 @@ def drawn(
         try:
             primitives = project(items, OutsideScreen(camera, SIZE, 1e-3, unit_px))
             texture = overlay.draw(
-                rasterizer.draw(camera, SIZE, "outside"),
+                ShownScene(rasterizer.draw(camera, SIZE, "outside")),
                 camera,
                 SIZE,
                 layers(primitives, DARK_GROUND),
-                plane,
-                picture,
-                unit_px=unit_px,
+                unit_px,
+                PlacedPicture(plane, picture) if plane is not None else None,
             )
             pixels = np.frombuffer(texture.read(), np.uint8).reshape(SIZE[1], SIZE[0], 4)
             assert pixels[..., 3].min() == 255  # ImGui blends it
