@@ -27,7 +27,7 @@ Fact = tuple[str, str]  # the name of a quantity, "" if it continues the previou
 
 
 def facts(found: CameraSet, chosen: PosedCamera | None = None) -> list[Fact]:
-    """Return the lines on a file: on the selected camera, else on all together."""
+    """Return the facts about a file: about the selected camera, or else about all together."""
     told = [("format", f"{found.format}: {format_named(found.format).what}")]
     told += [("" if number else "taken", phrase) for number, phrase in enumerate(found.taken)]
     cameras = found.cameras if chosen is None else (chosen,)
@@ -99,7 +99,7 @@ def basis_text(camera: Camera) -> str:
 
 
 def as_data(found: CameraSet, chosen: PosedCamera | None = None) -> dict[str, Any]:
-    """Return the same as JSON values.
+    """Return the facts about a file as JSON values.
 
     K, R and t map a point to pixels whose centres are whole numbers. They are None for a parallel
     camera, and if there is no image size.

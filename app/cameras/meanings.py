@@ -39,8 +39,8 @@ _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 class Meaning:
     """A meaning of a matrix.
 
-    words: what it is, a line for each name; the last line says where its camera is.
-    view: that camera.
+    words: its description, a line for each name; the last line states the camera's place.
+    view: that camera's view.
     """
 
     words: str
@@ -56,8 +56,8 @@ def matrix_in(text: str) -> Floats | None:
 def meanings(matrix: Floats, now: View, center: ArrayLike) -> list[Meaning]:
     """Return the usual meanings of a matrix that make a camera.
 
-    Those whose camera looks at `center`, the scene's middle, come first. now: the present view, for
-    what a matrix leaves open.
+    Those whose camera looks at `center`, the scene's middle, come first. now: the current view, for
+    values that a matrix leaves open.
     """
     found: dict[tuple[float, ...], tuple[list[str], View]] = {}
     transposed = matrix.reshape(4, -1).T

@@ -29,7 +29,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """arguments.commands: the modules of all commands."""
+    """Print the completion. arguments.commands: the modules of all commands."""
     import shtab
 
     class FileParser(Parser):

@@ -69,7 +69,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def window_size(text: str) -> tuple[int, int]:
-    """Parse a window size with room for the images: without any, the window would wait for them
+    """Parse a window size with space for the images; without space, the window would wait for them
     forever.
     """
     width, height = size(text)

@@ -18,7 +18,7 @@ from .options.shared import ImageOptions, Pixel, Preferences
 
 MOST_UNDO_STEPS = 500
 ORTHONORMAL = 1e-6  # the largest deviation of a dot product or length
-# The options that undo brings back, with the resolution and the selection.
+# The options that undo restores, in addition to the resolution and the selection.
 UNDONE = (
     *("marked", "marked_size", "probe", "shadows", "mirrors"),
     *("bookmarks", "photograph", "poses"),
@@ -29,9 +29,9 @@ UNDONE = (
 class AppState:
     """Everything that the window shows. Scenes are compared by identity.
 
-    keep_orthonormal: edits of u, v or w keep the basis orthonormal. options: see app/state/options;
-    the properties below name its parts. step: of the lecture that the state was shown in: the
-    lecture's source, the numbers of the step and its build, from 0; None outside of lectures.
+    keep_orthonormal: True if edits of u, v or w keep the basis orthonormal. options: see
+    app/state/options; the properties below name its parts. step: the source of the lecture that
+    shows the state, and the numbers of the step and its build, from 0; None outside lectures.
     """
 
     scene: Scene
@@ -42,7 +42,7 @@ class AppState:
 
     @classmethod
     def for_scene(cls, scene: Scene, view: View | None = None) -> AppState:
-        """A scene seen by its own view, or by `view`."""
+        """Return the state of a scene, seen by its own view or by `view`."""
         view = scene.view if view is None else view
         return cls(scene, view, keep_orthonormal=is_orthonormal(view.camera))
 
@@ -96,8 +96,8 @@ class AppState:
         return state.with_view(scene.view if view is None else view)
 
     def undone_in(self, present: AppState) -> AppState:
-        """Return this earlier state as undo brings it back: camera, scene, marks, and what is drawn
-        are its own; the looks, the display and the instruments' options stay those of the present.
+        """Return this earlier state as undo restores it: with its own camera, scene, marks and
+        UNDONE options, but the present theme, display and other options.
         """
         mine, options = self.options, present.options
         kept = {name: getattr(mine, name) for name in UNDONE}
@@ -106,7 +106,7 @@ class AppState:
         return replace(self, options=replace(options, images=images, objects=objects, **kept))
 
     def with_fit(self, fit: bool) -> AppState:
-        """Return the state with this switch. Off, the camera's own image size is forgotten."""
+        """Return the state with this switch. Turning it off discards the camera's image size."""
         return replace(
             self, view=replace(self.view, fit=fit, given=self.view.given if fit else None)
         )
@@ -123,8 +123,8 @@ class AppState:
 class History:
     """A present state with the ones before and after it.
 
-    Undo is for the camera, the scene and marks, see AppState.undone_in(); a change of anything else
-    is no step. gesture: a key of the last change's drag; changes of one gesture are one step.
+    Undo covers the camera, the scene and marks: see AppState.undone_in(). A change of anything else
+    is not a step. gesture: a key of the last change's drag; changes of one gesture are one step.
     """
 
     present: AppState
@@ -140,21 +140,21 @@ class History:
         if self._again(state) == self.present:
             return replace(self, present=state)
         if gesture is not None and gesture == self.gesture and self.past:
-            if self._again(self.past[-1]) == self._again(state):  # where it began: no step is left
+            if self._again(self.past[-1]) == self._again(state):  # back at the start: no step
                 return History(state, self.past[:-1])
             return replace(self, present=state, future=())
         past = (*self.past, self.present)[-MOST_UNDO_STEPS:]
         return History(state, past, (), gesture)
 
     def amended(self, state: AppState) -> History:
-        """Return the history with another present and no new step, for a change that the user has
-        not made.
+        """Return the history with another present and no new step, because the user did not cause
+        the change.
         """
         return self if state == self.present else replace(self, present=state)
 
     def unclicked(self, press: Hashable) -> History:
-        """Return the history without the last step if that has the gesture of this press and only
-        sets or clears the mark: the click was the first of two.
+        """Return the history without the last step if that has this press's gesture and only sets
+        or clears the mark, because the click was the first of a double click.
         """
         if not self.past or self.gesture != press:
             return self
@@ -178,8 +178,8 @@ class History:
         return History(self._again(self.future[0]), (*self.past, self.present), self.future[1:])
 
     def _again(self, state: AppState) -> AppState:
-        """Return a state with what undo leaves as it is at present. A lecture's step has options of
-        its own.
+        """Return undone_in() of a state. A state of another lecture step keeps its own options,
+        except for the preferences.
         """
         if state.step != self.present.step:
             preferences = self.present.preferences

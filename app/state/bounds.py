@@ -22,8 +22,8 @@ class OptionPart:
     """A part of the options, such as an instrument's: the base of a frozen dataclass."""
 
 
-# A mark has problem(value): what is wrong and the remedy, or None; and clamped(value, default): the
-# nearest valid value, or the default if none is near.
+# A mark has two methods: problem(value) returns the problem and the remedy, or None;
+# clamped(value, default) returns the nearest valid value, or the default if none is near.
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ def clamped(options: T) -> T:
 
 
 def range_of(kind: type, field: str) -> tuple[float, float]:
-    """Return (least, most) of a number's field, for a slider; of a list's field, its entries'."""
+    """Return (least, most) of a number's field or a list's entries, for a slider."""
     found = [mark for mark in _marks_inside(_hints(kind)[field]) if isinstance(mark, Range)]
     return float(found[0].least), float(found[0].most)
 
@@ -166,7 +166,7 @@ def _marks_inside(hint: Any) -> Iterator[Any]:
 
 
 def _bounded(hint: Any, value: Any, default: Any, path: str, problems: list[LucidaError]) -> Any:
-    """Return the value with everything in it within bounds; itself if it is already.
+    """Clamp everything in the value; return the value itself if it is within bounds.
 
     Append a LucidaError to problems for each value that was not.
     """

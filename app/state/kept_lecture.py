@@ -11,7 +11,7 @@ class Judgement(NamedTuple):
 
     field: the part that it is about, or empty.
     mistake: the name of the mistake, or the reply itself; "" if it is not recognised.
-    read: the step that explains it; "" for the one before the exercise.
+    read: the step that explains it; "" for the step before the exercise.
     is_answer: False for a text that could not be read.
     """
 
@@ -27,10 +27,10 @@ class Judgement(NamedTuple):
 class Answers:
     """The answers to a step's exercise.
 
-    texts: typed, by field.
-    chosen: the option.
-    verdict: on the last answer; None before the first.
-    solved: the solution is shown.
+    texts: the typed texts, by field.
+    chosen: the selected option.
+    verdict: the verdict on the last answer; None before the first.
+    solved: True if the solution is shown.
     """
 
     texts: dict[str, str] = field(default_factory=dict)
@@ -44,12 +44,12 @@ class KeptLecture:
     """An open lecture. Paths are as paths.stored() writes them.
 
     file: an absolute path; "" for the built-in lecture.
-    fingerprint: of the file's content.
-    number, title: the step, from 0.
-    in_step: the session's scene is the step's own.
-    answers: by the steps' titles.
+    fingerprint: a hash of the file's content.
+    number, title: the step's number, from 0, and its title.
+    in_step: True if the session's scene is the step's own.
+    answers: the answers by the steps' titles.
     outside: files outside its folder that the user has agreed to.
-    build: of the step, from 0.
+    build: the number of the step's build, from 0.
     """
 
     file: str = ""

@@ -17,8 +17,9 @@ from .paths import restored
 
 
 def unsaved_text(scene: Scene) -> str:
-    """Return a scene file with a scene that its own file does not have; "" if that has all of it,
-    or no file can hold it. Paths are absolute.
+    """Return a scene with unsaved changes as the text of a scene file, with absolute paths.
+
+    Return "" if there are no such changes, or no file can hold the scene.
     """
     if not is_unsaved(scene):
         return ""
@@ -27,7 +28,7 @@ def unsaved_text(scene: Scene) -> str:
 
 
 def text_of_older(edited: dict[str, Any]) -> str:
-    """Return the same of what earlier versions kept: tables, and the folder of their paths."""
+    """Return the same for the data of earlier versions: tables, and the folder of their paths."""
     try:
         return _text(edited["tables"], Path(restored(edited["folder"])))
     except (AttributeError, KeyError, TypeError, ValueError):  # damaged

@@ -1,7 +1,8 @@
 """Paths of files as text for any file format, and back.
 
-A name need not be UTF-8. Python then has lone surrogates in it, which JSON and the window's texts
-do not accept. Show paths by lucida.renderer.system.errors.one_line(); keep them by stored().
+A name need not be UTF-8. Python then puts lone surrogates into it, which JSON and the window's
+texts do not accept. Show paths with lucida.renderer.system.errors.one_line(); save them with
+stored().
 """
 
 from __future__ import annotations

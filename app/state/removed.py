@@ -8,8 +8,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-# What to use now, as the end of a sentence. Options by path, such as "stepper.form"; "stepper"
-# stands for all of the stepper's options.
+# The replacement, as the end of a sentence. Options are named by path, such as "stepper.form";
+# "stepper" includes all of the stepper's options.
 REMOVED: dict[str, str] = {
     "notation": "formulas and programs have the lecture's letters",
     "stepper.form": "object order goes triangle by triangle",
@@ -69,7 +69,7 @@ REMOVED: dict[str, str] = {
     "stepper.speed": "Right, held, goes on line by line, and the slider to any step",
 }
 
-# The new value and the reason, by the option's path and the old value, such as ("language", "c").
+# The new value and its reason, by the option's path and the old value, such as ("language", "c").
 REPLACED: dict[tuple[str, str], tuple[str, str]] = {
     ("preferences.theme", "contrast"): ("dark", "F9 makes its colours stronger"),
     ("language", "c"): ("python", "programs are in Python or Julia"),

@@ -1,7 +1,7 @@
 """A session as the text of its file, and back.
 
 The file's format is versioned JSON of the state and of the arrangement of the windows.
-session_store.py has its place. Options that an older session does not hold have their defaults.
+session_store.py finds its place. Options that an older session lacks have their defaults.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .paths import restored, stored
 from .removed import without_removed
 
 VERSION = 1  # of the format: the key `lucida_session`
-LARGEST_BYTES = 20 << 20  # an edited scene is in it
+LARGEST_BYTES = 20 << 20  # it may contain an edited scene
 OLDER = "The last session is of an earlier version:"
 
 
@@ -51,9 +51,8 @@ class Session:
     """A session file.
 
     scene: an argument of load_scene, as paths.stored() writes it. lecture: the open one, or None.
-    unsaved: a scene file with the scene, if that is not what load_scene returns; or "". notes: for
-    the user; not written to the file. The other fields are those of
-    AppState.
+    unsaved: the text of a scene file with unsaved changes, or "". notes: messages for the user,
+    which are not written to the file. The other fields are those of AppState.
     """
 
     scene: str
@@ -78,20 +77,16 @@ class Session:
 def session_of(
     state: AppState, arrangement: Arrangement, lecture: KeptLecture | None = None
 ) -> Session:
-    """Return what to keep of a state. A scene from no file is replaced by the first built-in
-    one.
-    """
+    """Return a state's session. A scene from no file is replaced by the first built-in one."""
     source = stored(source_of(state.scene))
-    unsaved = "" if state.step is not None else unsaved_text(state.scene)  # nobody saves a step's
+    unsaved = "" if state.step is not None else unsaved_text(state.scene)  # a step's is never saved
     return Session(
         source, state.view, state.keep_orthonormal, state.options, arrangement, lecture, unsaved
     )
 
 
 def source_of(scene: Scene) -> str:
-    """Return the argument of load_scene for a scene; for one from no file, the first built-in one's
-    name.
-    """
+    """Return a scene's argument of load_scene: the first built-in scene's if it has no file."""
     origin = scene.origin
     return origin.source if origin is not None and origin.source else BUILTIN_SCENES[0]
 

@@ -1,7 +1,7 @@
 """The file of the window's layout.
 
 settings_file() finds its place and checks that it is usable. A settings file never keeps the window
-from opening: without a readable or writable one, there is none.
+from opening: one that cannot be read or written is not used.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def settings_file(fresh: bool = False) -> Path | None:
 
 
 def _is_sane(path: Path) -> bool:
-    """Return True if it is text of a sensible size, with a window of a sensible size in it."""
+    """Return True if the file is text of a plausible size with a window of a plausible size."""
     if path.stat().st_size > LARGEST_BYTES:
         return False
     try:

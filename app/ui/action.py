@@ -1,4 +1,4 @@
-"""Actions: what a menu or a key does."""
+"""Actions that menus and keys run."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from . import theme
 from .host import Host
 
 Key = imgui.Key
-# The keys of a sign. Plus is typed with Shift on many keyboards.
+# The keys that type each character. Plus needs Shift on many keyboards.
 _KEYS = {
     "+": (Key.equal, int(Key.mod_shift) | int(Key.equal), Key.keypad_add),
     "-": (Key.minus, Key.keypad_subtract),
@@ -35,11 +35,11 @@ class Action:
 
     menu: its menu, such as "View" or, for a submenu, "View/Pixels".
     keys: its shortcuts, as displayed: "Ctrl+S", or "Home, H" for two.
-    more_keys: further ones, which are not displayed.
-    binds: False if the keys are only displayed, and its view reads them.
-    is_on: for switches, the state.
-    can: True if it is possible now.
-    separated: draw a line above it.
+    more_keys: further shortcuts, which are not displayed.
+    binds: False if the keys are only displayed because a view reads them itself.
+    is_on: returns the state of a switch.
+    can: returns True if the action is possible now.
+    separated: True to draw a line above it.
     tip: the tooltip of its entry in a menu, or a line below it.
     """
 
@@ -61,7 +61,7 @@ class Action:
 
 
 def chords_of(keys: str) -> tuple[int, ...]:
-    """Return the chords of shortcuts as displayed, in ImGui's form."""
+    """Convert displayed shortcuts to ImGui's key chords."""
     chords: list[int] = []
     for shortcut in keys.split(", ") if keys else ():
         *modifiers, name = re.split(r"(?<=\w)\+", shortcut)
@@ -92,8 +92,8 @@ def choosing(
 ) -> Action:
     """Return the action that sets an option to a value.
 
-    option: such as "shadows" or "images.channel". off: the value that it gives if the option has
-    the first one; None: that stays. more: further fields of the action.
+    option: its path, such as "shadows" or "images.channel". off: the value to set if the option
+    already has `value`; None to leave it. more: further fields of the action.
     """
     part, _, field = option.rpartition(".")
 
@@ -107,14 +107,14 @@ def choosing(
         new = {field: off if off is not None and is_on(state) else value}
         return state.with_options(state.options.with_changes({part: new} if part else new))
 
-    current(Options())  # a wrong name is an error at the start, not when somebody uses it
+    current(Options())  # report a wrong name at the start, not on first use
     return Action(menu, name, changing(change), keys, is_on=is_on, **more)
 
 
 def draw_entry(action: Action, host: Host, first: bool = False, below: bool = False) -> None:
     """Draw an action as an entry of the current menu.
 
-    first: without a line above it. below: its tip is a line below it, not a tooltip.
+    first: True to omit the line above it. below: True to draw its tip as a line below it.
     """
     if action.separated and not first:
         imgui.separator()

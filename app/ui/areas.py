@@ -1,6 +1,6 @@
-"""Areas that are controls: what is drawn there by hand takes the mouse and the keyboard.
+"""Areas drawn by hand that take the mouse and the keyboard, as controls do.
 
-ImGui's own invisible button is left out by Tab and the arrow keys, unless asked.
+Tab and the arrow keys skip ImGui's own invisible button unless a flag is set.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ def press_area(name: str, size: ImVec2) -> bool:
 
 
 def mouse_area(name: str, size: ImVec2, buttons: int = _LEFT) -> bool:
-    """Add an item that the mouse holds at a place. Return True if it was clicked.
+    """Add an item that the mouse presses at a point. Return True if it was clicked.
 
-    The keyboard reaches it, for its arrow keys; Enter and Space have no place, and do nothing.
+    The keyboard can reach it for its arrow keys. Enter and Space do nothing: they have no point.
     """
     clicked = imgui.invisible_button(name, size, buttons | imgui.ButtonFlags_.enable_nav)
     context = imgui.get_current_context()
@@ -37,7 +37,7 @@ def mouse_area(name: str, size: ImVec2, buttons: int = _LEFT) -> bool:
 
 
 def press_point() -> ImVec2:
-    """Return where the current item is pressed: at the mouse, or in its middle if by a key."""
+    """Return the point where the current item is pressed: the mouse, or its centre for a key."""
     if imgui.get_current_context().nav_activate_id != imgui.get_item_id():
         return imgui.get_mouse_pos()
     return (imgui.get_item_rect_min() + imgui.get_item_rect_max()) / 2
@@ -50,7 +50,7 @@ def claim_arrows() -> None:
 
 
 def arrow_steps() -> tuple[int, int]:
-    """Return how far the pressed arrow keys go, to the right and down; with Shift, LEAP times."""
+    """Return the pressed arrow keys' steps to the right and down; Shift multiplies by LEAP."""
     io = imgui.get_io()
     if io.want_text_input or io.key_ctrl or io.key_alt or io.key_super:
         return 0, 0
@@ -68,6 +68,6 @@ def focused_steps() -> tuple[int, int]:
 
 
 def pixel_from(pixel: Pixel, steps: tuple[int, int], size: tuple[int, int]) -> Pixel:
-    """Return the pixel to which steps to the right and down lead. They do not leave the image."""
+    """Return a pixel moved by steps to the right and down, clamped to the image."""
     row, column = pixel[0] + steps[1], pixel[1] + steps[0]
     return min(max(row, 0), size[1] - 1), min(max(column, 0), size[0] - 1)

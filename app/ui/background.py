@@ -33,7 +33,7 @@ class Background(Generic[T]):
     """Run tasks one at a time on a worker thread, started on first use.
 
     wake: called on that thread after each task; by default wake_window, which the window sets to
-    ask for a frame.
+    request a frame.
     every: run all tasks in order (for saving files); otherwise only the latest waiting task is
     kept.
     """
@@ -67,11 +67,11 @@ class Background(Generic[T]):
                 self._thread.start()
 
     def ask(self, function: Callable[[*Parts], T], *key: *Parts) -> None:
-        """Submit function(*key), unless that was asked for last. See Memo."""
+        """Submit function(*key) unless that was the last request. See Memo."""
         self._ask(self, function, *key)
 
     def forget(self) -> None:
-        """Submit whatever is asked for next."""
+        """Forget the last request, so that the next one is submitted in any case."""
         self._ask.forget()
 
     def poll(self) -> Outcome[T] | None:
@@ -107,7 +107,7 @@ class Background(Generic[T]):
                 self._working = True
             try:
                 outcome = Outcome(work())
-            except Exception as error:  # shown in the window, which goes on
+            except Exception as error:  # the window reports it and keeps running
                 outcome = Outcome(None, error)
             with self._changed:
                 self._working = False
@@ -125,7 +125,7 @@ def lower_priority() -> None:
     """
     if sys.platform.startswith("linux"):
         with contextlib.suppress(OSError):
-            # There, and against POSIX, niceness belongs to a thread and is inherited.
+            # Linux deviates from POSIX: niceness belongs to a thread and is inherited.
             thread = threading.get_native_id()
             niceness = os.getpriority(os.PRIO_PROCESS, thread) + NICER
             os.setpriority(os.PRIO_PROCESS, thread, min(niceness, 19))

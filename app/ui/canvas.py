@@ -14,8 +14,8 @@ from lucida.renderer.images.display import to_srgb8
 from . import theme
 from .areas import focused_steps, pixel_from, press_point
 
-CELL, LEAST_CELL = 12, 4  # texels a side of a pixel, of a small canvas and of the largest
-LARGEST_PX = 256  # a picture's width, where that leaves pixels LEAST_CELL texels
+CELL, LEAST_CELL = 12, 4  # texels per side of a pixel: on a small canvas, on the largest
+LARGEST_PX = 256  # a picture's width, if its pixels keep LEAST_CELL texels
 POINT = 1.0  # texels, half a side of the point in an unset pixel
 SMALLEST_CELL = 5.0  # pixels of this size have outlines
 
@@ -24,9 +24,9 @@ SMALLEST_CELL = 5.0  # pixels of this size have outlines
 class Marks:
     """Marks on a canvas.
 
-    pixel: the current one.
-    box: rows and columns of a bounding box.
-    corners: of the current triangle, (x, y) in pixels from the upper left corner.
+    pixel: the current pixel.
+    box: the rows and columns of a bounding box.
+    corners: the current triangle's corners, (x, y) in pixels from the upper left corner.
     """
 
     pixel: Pixel | None = None
@@ -35,8 +35,9 @@ class Marks:
 
 
 def color_picture(color: NDArray[np.float64], exposure_ev: float) -> NDArray[np.uint8]:
-    """Return linear light (height, width, 3), NaN where unset, as a picture of cell_of(width)
-    texels per pixel.
+    """Convert linear light (height, width, 3), NaN if unset, to a picture.
+
+    A side of a pixel has cell_of(width) texels.
     """
     unset = np.asarray(np.isnan(color).any(axis=2))
     shown = to_srgb8(np.where(unset[..., None], 0.0, color), exposure_ev)
@@ -52,12 +53,12 @@ def color_picture(color: NDArray[np.float64], exposure_ev: float) -> NDArray[np.
 
 
 def cell_of(width: int) -> int:
-    """Return the texels along a pixel's side in the picture of a canvas of this width."""
+    """Return the texels per side of a pixel, for a canvas of this width."""
     return max(LEAST_CELL, min(CELL, LARGEST_PX // width))
 
 
 def canvas_unit(size: tuple[int, int], room: ImVec2) -> float:
-    """Return the side of a pixel of the largest canvas that the room has, whole if it can be."""
+    """Return the largest side of a pixel that fits in `room`, rounded down if it exceeds 4."""
     unit = max(1.0, min(room.x / size[0], room.y / size[1]))
     return float(int(unit)) if unit > 4 else unit
 
@@ -88,7 +89,7 @@ def pressed_pixel(corner: ImVec2, unit: float, size: tuple[int, int]) -> Pixel:
 
 
 def walked_pixel(pixel: Pixel | None, size: tuple[int, int]) -> Pixel | None:
-    """Return where the arrow keys lead from a pixel, if the keyboard is on the current item."""
+    """Return the pixel that pressed arrow keys lead to; None without keys or keyboard focus."""
     steps = focused_steps() if pixel is not None else (0, 0)
     return pixel_from(pixel, steps, size) if pixel is not None and any(steps) else None
 
@@ -114,7 +115,7 @@ def _draw_marks(
 
 
 def _triangle(draw: imgui.ImDrawList, low: ImVec2, high: ImVec2, points: list[ImVec2]) -> None:
-    """Draw the triangle's sides and the names of its corners, as far as they are on the canvas."""
+    """Draw the parts of the triangle's sides and corner names that are on the canvas."""
     black, white = theme.u32(theme.rgb("#000000")), theme.u32(theme.rgb("#ffffff"))
     width = theme.line_px(1.5)
     draw.push_clip_rect(low, high, True)

@@ -1,7 +1,7 @@
 """Check boxes and radio buttons whose edges are visible when they are empty.
 
-Their background alone has too little contrast with a panel's (WCAG 2.1, 1.4.11 asks for at least
-3).
+Their background alone has too little contrast with a panel's: WCAG 2.1 (1.4.11) requires at least
+3.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from imgui_bundle import ImVec2, imgui
 
 from . import theme
 
-# In parts of their half size.
+# The lines of the marks, as fractions of half their size.
 CHECK = (((-1.0, 0.1), (-0.3, 0.8)), ((-0.3, 0.8), (1.0, -0.8)))
 CROSS = (((-0.8, -0.8), (0.8, 0.8)), ((-0.8, 0.8), (0.8, -0.8)))
 
@@ -32,7 +32,7 @@ def radio_button(label: str, on: bool) -> bool:
 
 
 def verdict_sign(middle: ImVec2, good: bool) -> None:
-    """Draw a check mark or a cross, so that a verdict needs no colour. middle: on the screen."""
+    """Draw a check mark or a cross, so that a verdict needs no colour. middle: in pixels."""
     r, draw = 0.32 * imgui.get_font_size(), imgui.get_window_draw_list()
     lines = CHECK if good else CROSS
     color = theme.u32(theme.GOOD if good else theme.legible(theme.ERROR))

@@ -9,8 +9,8 @@ import numpy as np
 from lucida.renderer.images.display import LUMINANCE, from_srgb
 
 Rgb = tuple[float, float, float]  # sRGB, 0..1
-LEGIBLE = 4.5  # the least contrast of text with what is behind it (1.4.3)
-SEEN = 3.0  # and of what is drawn (1.4.11)
+LEGIBLE = 4.5  # the least contrast of text with its background (1.4.3)
+SEEN = 3.0  # and of graphics (1.4.11)
 
 
 @functools.lru_cache(maxsize=256)

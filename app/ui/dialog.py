@@ -1,4 +1,4 @@
-"""The window's own question for a file, on systems without file dialogs: a box for its path.
+"""A box that asks for the path of a file, on systems without file dialogs.
 
 The bundle's own dialog is not used, because it ends the process if there is no icon theme.
 """
@@ -23,10 +23,10 @@ PATH_EM = 30.0
 class FileQuestion:
     """A question for files.
 
-    title: on top.
-    saves: ask for a name, of a file that need not exist.
-    endings: of the files; ("",) for a folder to write into, which may exist.
-    name: the initial one, or a whole path.
+    title: the title of the box.
+    saves: True to ask for a name to save under; the file need not exist.
+    endings: the files' extensions; ("",) for a folder to write into, which may exist.
+    name: the initial name, or a whole path.
     chosen: called with the paths.
     """
 
@@ -38,7 +38,7 @@ class FileQuestion:
 
 
 class FileDialog:
-    """The box. folder: of the last file, in which names without a folder are."""
+    """The box. folder: the last file's folder, to which a name without a folder refers."""
 
     def __init__(self) -> None:
         self.question: FileQuestion | None = None

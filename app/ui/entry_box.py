@@ -26,10 +26,10 @@ class Box(Protocol):
 class EntryBox:
     """A box. Tab moves from field to field, Enter enters the texts, Escape closes it.
 
-    fields: the text of each field at first, by its name.
+    fields: each field's initial text, by its name.
     button: the label of its button.
     rule: the line below the fields.
-    entered: called with the texts; raises LucidaError if they are wrong, and the box stays.
+    entered: called with the texts; the box stays open if it raises LucidaError.
     field_em: the width of a field, in type sizes.
     problem: the last error.
     focused: True if the box has the keyboard, even before one of its fields has taken it.
@@ -63,7 +63,7 @@ class EntryBox:
             | flags.no_saved_settings,
         )
         self.focused = imgui.is_window_focused()
-        # The field that is typed into takes Escape for itself; the box is left all the same.
+        # The active field consumes Escape; the box closes all the same.
         left = imgui.shortcut(int(imgui.Key.escape))
         left = left or (self.focused and imgui.is_key_pressed(imgui.Key.escape))
         room = imgui.get_main_viewport().work_size.x

@@ -1,4 +1,4 @@
-"""Views that fail: each shows its error and a button to retry, and the others go on."""
+"""Handle failing views: each shows its error and a button to retry; the others keep running."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .messages import failure_note
 
 
 class FailedViews:
-    """The views that failed, until the user retries. errors: of each, by its name."""
+    """The views that failed, until the user retries. errors: by the view's name."""
 
     def __init__(self) -> None:
         self.errors: dict[str, Exception] = {}
-        self._to_begin: dict[str, Callable[[], None]] = {}  # of those that could not
+        self._to_begin: dict[str, Callable[[], None]] = {}  # of views that could not begin
 
     def begin(self, view: Instrument, host: Host, context: moderngl.Context) -> None:
         """Prepare a view, which fails if a driver rejects its shader, for instance. Call once for
@@ -49,7 +49,7 @@ class FailedViews:
         imgui.internal.error_recovery_store_state(stacks)
         try:
             view.draw(host)
-        except Exception as error:  # whatever it is, the other views go on
+        except Exception as error:  # the other views must keep running
             if not isinstance(error, FAILURES):  # our own bug: include the traceback
                 traceback.print_exception(error, file=sys.stderr)
             self.errors[view.name] = error
@@ -57,7 +57,7 @@ class FailedViews:
 
 
 def _unwind(stacks: imgui.internal.ErrorRecoveryState) -> None:
-    """End what a failed view had begun in ImGui, without reporting that as an error."""
+    """Close what a failed view left open in ImGui, without reporting that as an error."""
     io = imgui.get_io()
     reports = [f"config_error_recovery_enable_{one}" for one in ("assert", "debug_log", "tooltip")]
     before = {report: getattr(io, report) for report in reports}

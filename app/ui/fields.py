@@ -1,5 +1,6 @@
-"""Number fields: dragged like a slider, or typed; with a level that shows the position of the
-value, and a menu to reset it.
+"""Number fields that are dragged like a slider or typed into.
+
+A level shows the value's position in its range, and a menu resets the value.
 """
 
 from __future__ import annotations
@@ -13,9 +14,9 @@ from . import theme, typed
 from .explaining import notation
 from .rows import tip
 
-NOISE = 1e-12  # a smaller number is what rounding has left of 0
-LEAST = 1e-2  # where dragging a logarithmic value ends, in parts of the scale's low end
-FINE = 0.1  # the usual decimals are too few for a scale that is shorter
+NOISE = 1e-12  # smaller numbers are rounding errors of 0
+LEAST = 1e-2  # least value when dragging on a logarithmic scale, as a fraction of its low end
+FINE = 0.1  # shorter scales need more than the usual decimals
 FLT_MAX = 3.4e38
 WIDTH = 8  # characters of a number
 DECIMALS = 4
@@ -23,7 +24,7 @@ HINT = "drag, or double-click to type (1/3, sqrt(2)/2); Shift: faster, Alt: slow
 
 
 class Scale(NamedTuple):
-    """The range that a field's level and its drag refer to: low to high. Values outside are legal.
+    """The range of a field's level and drag, from low to high. Values outside it are legal.
 
     logarithmic: for values above 0 that differ by factors.
     least, most: the limits of dragging, not of typing.
@@ -65,10 +66,10 @@ class Scale(NamedTuple):
 def shown_number(
     value: float, characters: int, decimals: int = DECIMALS, is_fine: bool = False
 ) -> str:
-    """Return a number with its usual decimals, or with as many digits as fit; a pixel's fraction is
-    complete, so that it matches calculations by hand. It ends at the last of the characters.
+    """Return a number with its usual decimals, or with as many digits as fit, aligned at the right.
 
-    is_fine: the usual decimals are too few.
+    A pixel's fraction is complete, so that it matches calculations by hand. is_fine: True if the
+    usual decimals are too few.
     """
     value = 0.0 if abs(value) < NOISE else value
     text, usual = notation.number(value), f"{value:z.{decimals}f}"
@@ -98,9 +99,9 @@ def number_field(
     """Draw a field. Return (whether it changed, its value).
 
     label: the id, not shown.
-    marked: show it as wrong.
+    marked: True to show it as wrong.
     reset: the value that its menu resets to; None for no such entry.
-    unit: shown after the number.
+    unit: the text after the number.
     """
     imgui.set_next_item_width(width_px)
     imgui.push_font(mono, 0.0)

@@ -1,7 +1,8 @@
 """The frame around the control that has the keyboard, the same for every control and drawn last.
 
-ImGui's own is drawn before what a control of ours paints over it, and is thin on a projector. Its
-two colours have a contrast of 9:1, so that one of them has 3:1 on any ground (WCAG 2.2, 2.4.13).
+ImGui draws its own frame first, so that our controls paint over it, and it is thin on a projector.
+This one's two colours have a contrast of 9:1: one of them has 3:1 on any background (WCAG 2.2,
+2.4.13).
 """
 
 from __future__ import annotations
@@ -26,16 +27,16 @@ class FocusFrame:
         window = context.nav_window
         if window is None or not (context.nav_cursor_visible and context.nav_id_is_alive):
             return
-        if not context.nav_move_submitted:  # then it is not the item's, but what a move is to reach
+        if not context.nav_move_submitted:  # during a move, it is the target's
             self._item = ImRect(context.nav_scoring_rect.min, context.nav_scoring_rect.max)
         line, casing = max(LINE, theme.px(LINE)), max(CASING, theme.px(CASING))
         root, rim = window.root_window.outer_rect_clipped, ImVec2(casing / 2, casing / 2)
-        shown = ImRect(root.min - ImVec2(0, casing), root.max)  # a dock's tabs have room for it
+        shown = ImRect(root.min - ImVec2(0, casing), root.max)  # a dock's tabs leave space for it
         item = ImRect(self._item.min, self._item.max)
         item.clip_with(window.outer_rect_clipped)
         if item.is_inverted():
             return
-        item = ImRect(item.min - rim, item.max + rim)  # around it: no letter is covered
+        item = ImRect(item.min - rim, item.max + rim)  # outside the item, to cover no letter
         item.clip_with(ImRect(shown.min + rim / 2, shown.max - rim / 2))
         draw = window.draw_list
         draw.push_clip_rect(shown.min, shown.max)

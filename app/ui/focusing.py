@@ -1,4 +1,4 @@
-"""Keep what is typed right after Tab for the field that Tab leads to.
+"""Deliver letters typed right after Tab to the field that Tab leads to.
 
 ImGui focuses a field in the frame after the request and drops the letters of that frame: of
 `1 Tab 13`, typed during a slow frame, the second 1 would be lost. Here the events wait until the
@@ -14,11 +14,11 @@ _TO_A_FIELD = int(_FLAGS.is_tabbing) | int(_FLAGS.focus_api)
 
 
 class Focusing:
-    """Holds back the events of one window."""
+    """A buffer that holds back the events of one window."""
 
     def __init__(self) -> None:
         self._held: imgui.ImVector_InputEvent | None = None
-        self._has_held = False  # in the frame before: not twice, whatever asks in each frame
+        self._has_held = False  # in the previous frame; never hold twice in a row
 
     def before_frame(self) -> None:
         """Remove the events if a field will get the keyboard. Call between two frames."""

@@ -1,7 +1,7 @@
 """Formulas, typeset and wrapped to the window's width; plain text if they cannot be typeset.
 
-Caches the pictures of formulas, and finds places to break long ones. MicroTeX needs the locale
-en_US.UTF-8; without it the formulas are plain text.
+This module caches the pictures of formulas, and finds places to break long ones. MicroTeX needs the
+locale en_US.UTF-8; without it the formulas are plain text.
 """
 
 from __future__ import annotations
@@ -20,9 +20,9 @@ from .explaining.breaking import breakable
 from .explaining.plain import plain_math
 from .theme import framebuffer_scale
 
-ROW_GAP = 0.35  # between the rows of one formula, in parts of its type's size
+ROW_GAP = 0.35  # between the rows of one formula, as a fraction of its type size
 MOST_EXTENTS = 500
-_extents: dict[tuple[str, float, float], ImVec2] = {}  # the room that formulas took last
+_extents: dict[tuple[str, float, float], ImVec2] = {}  # the last size of each formula
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,9 +93,9 @@ def inline_math(latex: str, size_px: float, color: ImVec4, display: bool = False
 def formula(parts: Iterable[str], size_px: float, key: str) -> None:
     """Draw formulas one after another, as many in a row as fit.
 
-    size_px: of the type.
-    key: a name for the formulas that stays the same while their numbers change. When out of sight,
-    they keep their last size.
+    size_px: the type size.
+    key: a name for the formulas that stays the same while their numbers change. Formulas out of
+    sight keep their last size.
     """
     room = max(1.0, imgui.get_content_region_avail().x)
     place = (key, room, size_px)
@@ -107,8 +107,8 @@ def formula(parts: Iterable[str], size_px: float, key: str) -> None:
     for part in parts:
         pieces = _pieces(part, size_px, room)
         whole = sum(piece.width for piece in pieces) + gap * (len(pieces) - 1)
-        # A part that has room in a row of its own is not broken for the sake of the last one; one
-        # that does not go on with an equals sign begins a row.
+        # A part that fits in a row of its own is not broken to fill the last row; a part without
+        # a leading equals sign begins a row.
         full = _width(rows[-1], gap) + gap + whole > room >= whole
         if rows[-1] and (full or not part.startswith("=")):
             rows.append([])
@@ -122,7 +122,7 @@ def formula(parts: Iterable[str], size_px: float, key: str) -> None:
 
 
 def lit(latex: str, part: str) -> str:
-    """Return a formula with one of its parts on a ground of its own; unchanged without a part."""
+    """Highlight a part of a formula; return the formula unchanged if `part` is empty."""
     ground = _hex(theme.LIT)
     return latex.replace(part, rf"\bgcolor{{{ground}}}{{{part}}}", 1) if part else latex
 
@@ -136,14 +136,14 @@ def vector_colors() -> dict[str, ImVec4]:
 def tinted(latex: str, ground: Rgb | None = None) -> str:
     """Return the formula in the colour language: u, v, w, the ray, the hit.
 
-    ground: the colour under it; None for a panel.
+    ground: the background colour; None for a panel's.
     """
     return _tinted(latex, ground, theme.used())
 
 
 @functools.lru_cache(maxsize=1024)
 def _tinted(latex: str, ground: Rgb | None, _look: theme.WindowLook) -> str:
-    """Return the formula in the colours of a look, which is in use."""
+    """Return the formula in the colours of the current look, which is a cache key."""
     for name, color in vector_colors().items():
         symbol = rf"\mathbf{{{name}}}"
         ink = theme.legible(color) if ground is None else theme.seen_on(color, ground, LEGIBLE)
@@ -153,7 +153,7 @@ def _tinted(latex: str, ground: Rgb | None, _look: theme.WindowLook) -> str:
 
 def _pieces(latex: str, size_px: float, room: float) -> list[Setting]:
     """Return a formula's pieces: broken at sums, and at products if necessary. A piece that is
-    still wider than the room is scaled down.
+    still too wide is scaled down.
     """
     pieces: list[Setting] = []
     for cut in breakable(latex):
@@ -168,7 +168,7 @@ def _pieces(latex: str, size_px: float, room: float) -> list[Setting]:
 
 
 def _piece(latex: str, size_px: float) -> Setting:
-    if latex[:2] in ("+ ", "- "):  # at the beginning it would be a sign, without a sum's space
+    if latex[:2] in ("+ ", "- "):  # a leading + or - would be set as a sign, without a sum's space
         latex = rf"{latex[0]}\;{latex[2:]}"
     return inline_math(latex, size_px, theme.TEXT, display=True)
 

@@ -1,6 +1,6 @@
 """A guest: another instrument that draws over the 3D views and uses the mouse there.
 
-The views know no guest by name; each is passed to them.
+Views do not know their guests by name: each guest is passed to them.
 """
 
 from __future__ import annotations
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 class ShownIn:
     """The image that a view shows.
 
-    name: of the view. camera: as it is drawn. origin, extent: of the whole image on the screen, in
-    ImGui's units; it may be larger than the view.
+    name: the view's name. camera: the camera that draws it. origin, extent: the rectangle of the
+    whole image on the screen, in ImGui's units; it may be larger than the view.
     """
 
     name: str
@@ -34,9 +34,9 @@ class ShownIn:
 class Click:
     """A click in a view.
 
-    number: of the object under the mouse in the id image; None for the background.
-    double: the second of two.
-    more: with Shift or Ctrl.
+    number: the object under the mouse, as in the id image; None for the background.
+    double: True for the second click of a double click.
+    more: True if Shift or Ctrl is held.
     """
 
     number: int | None
@@ -50,15 +50,15 @@ class Guest(Protocol):
     """
 
     def holds(self, view: str) -> bool:
-        """Return True if the mouse is on something of the guest's. The view then leaves it
-        alone.
+        """Return True if the mouse is over something of the guest's. The view then ignores the
+        mouse.
         """
 
     def wants(self, host: Host, double: bool) -> bool:
         """Return True if a click in a view is for the guest, not for the view."""
 
     def click(self, host: Host, shown: ShownIn, click: Click) -> None:
-        """Handle a click that it wanted."""
+        """Handle a click for which wants() returned True."""
 
     def draw(self, host: Host, shown: ShownIn, over: bool) -> None:
         """Draw into the view's ImGui window. over: True if the mouse is over its picture."""

@@ -1,4 +1,4 @@
-"""The window, as its instruments see it: the state, both images, files, and what a menu can ask."""
+"""The window, as its instruments see it: the state, both images, files, and menu commands."""
 
 from __future__ import annotations
 
@@ -34,21 +34,21 @@ class Filing(Protocol):
     def save_as_dialog(
         self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]
     ) -> None:
-        """Ask for a place, and store something there in the background.
+        """Ask for a path, and save to it in the background.
 
-        kind: in words, and the extensions; the first is added to a name without one.
-        store: stores it, and returns a message on what it did.
+        kind: the kind in words, and its extensions; the first is added to a name without one.
+        store: saves to the path, and returns a message for the user.
         """
 
     def ask_name(
         self, title: str, name: str, kind: tuple[str, ...], named: Callable[[str], None]
     ) -> None:
-        """Ask for a name to save under. kind: as in save_as_dialog(). named: called with it."""
+        """Ask for a name to save under. kind: see save_as_dialog(). named: gets the path."""
 
     def ask_open(
         self, title: str, words: str, endings: tuple[str, ...], chosen: Callable[[list[str]], None]
     ) -> None:
-        """Ask for files to open. words: for those with the endings."""
+        """Ask for files to open. words: a description of such files."""
 
     def ask(self, text: str, answers: dict[str, Callable[[], None]]) -> None:
         """Ask a question. answers: the words on the buttons next to Cancel, and what each does."""
@@ -68,9 +68,9 @@ class Host(Protocol):
 
     renderers: both images of the current state.
     files: opening and saving. shell: the parts around the views.
-    moves: True if things may move by themselves; False while a picture of the window is taken.
+    moves: True if animations may run; False while a picture of the window is taken.
     is_rearranging: True until all views have their places, after which sizes are final.
-    box: asks for an entry; None if nothing does.
+    box: the open entry box, or None.
     """
 
     fonts: Fonts
@@ -95,7 +95,7 @@ class Host(Protocol):
 
     @property
     def present(self) -> AppState:
-        """The current state, without a movement to it."""
+        """The current state, even during a movement towards it."""
 
     @property
     def focus(self) -> Focus:
@@ -110,7 +110,7 @@ class Host(Protocol):
 
     def apply(self, state: AppState, gesture: Hashable = None) -> None:
         """Make a state the current one. Changes while an item is held are one undo step; so are
-        those with an equal gesture that is not None.
+        changes with the same gesture other than None.
         """
 
     def edit(self, part: Options | OptionPart) -> None:
@@ -156,10 +156,10 @@ class Host(Protocol):
     def move(
         self, state: AppState, move_s: float, loop: bool = False, start: AppState | None = None
     ) -> None:
-        """Make a state the current one, as an undo step, and show states between for some seconds.
+        """Make a state the current one, as an undo step, and animate towards it for some seconds.
 
-        They are never in the history: any change, and any press of the mouse, ends the movement.
-        loop: begin it again and again. start: None for the state that is shown.
+        The states in between are never in the history. Any change and any press of the mouse end
+        the movement. loop: True to repeat it. start: None for the state that is shown.
         """
 
     def end_movement(self) -> bool:

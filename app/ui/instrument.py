@@ -1,7 +1,7 @@
 """An instrument: one class with a view that can be docked, shown and hidden, and its actions.
 
-app/window/instruments.py lists the classes. A large one may inherit its parts: its view's class in
-view.py, its actions in actions.py, and both joined in instrument.py.
+app/window/instruments.py lists the classes. A large one may be split: view.py has its view's class,
+actions.py has its actions, and instrument.py joins both.
 """
 
 from __future__ import annotations
@@ -22,16 +22,16 @@ AnInstrument = TypeVar("AnInstrument", bound="Instrument")
 
 
 class Instrument:
-    """A view in a dockable window, with what menus and keys do with it.
+    """A view in a dockable window, with its actions for menus and keys.
 
     Methods are called on the window's thread, with its OpenGL context current.
 
     name: unique; the window's id in ImGui.
-    title: on its tab.
-    padding, flags: of the ImGui window; None and 0 for the style's.
-    space: where it is docked in layouts that do not place it and have that space; "": as a tab of
+    title: the text on its tab.
+    padding, flags: the ImGui window's; None and 0 for the style's.
+    space: its dock space in layouts that have that space and do not place the view; "" for a tab of
     the main view.
-    actions: for menus and keys, in the order of the menus.
+    actions: its actions for menus and keys, in the order of the menus.
     mouse, keyboard: further rows for the shortcut sheet.
     """
 
@@ -45,9 +45,9 @@ class Instrument:
     keyboard: ClassVar[tuple[tuple[str, str], ...]] = ()
 
     def __init__(self, views: Sequence[Instrument] = ()) -> None:
-        """Make the instrument.
+        """Create the instrument.
 
-        views: those before it in the window's list; one that draws into another finds it there.
+        views: the views before it in the window's list, such as one that it draws into.
         """
 
     @property
@@ -72,7 +72,7 @@ class Instrument:
         """Draw the view inside its ImGui window. Called in each frame in which it is visible."""
 
     def unseen(self, host: Host) -> None:
-        """Called in each frame in which the view is hidden, or behind another tab."""
+        """Handle a frame in which the view is hidden, or behind another tab."""
 
     def own_camera(self, host: Host) -> Camera | None:
         """Return the camera of a 3D view, which F aims at an object; None if there is none."""
@@ -94,10 +94,10 @@ class Instrument:
         return ()
 
     def open_sections(self, names: tuple[str, ...]) -> None:
-        """Unfold these parts, and fold the others. Unknown names come from other versions."""
+        """Unfold these parts, and fold the others. Ignore unknown names, from other versions."""
 
     def cancel(self) -> None:
-        """End the current drag: something else has changed the state."""
+        """End the current drag, because something else has changed the state."""
 
     @property
     def has_pending(self) -> bool:
@@ -108,7 +108,7 @@ class Instrument:
         """Discard that entry."""
 
     def begin_anew(self) -> None:
-        """Reset what the view keeps outside the state, because a lecture moved by a step."""
+        """Reset the view's data outside the state, because a lecture moved by a step."""
 
     def end(self) -> None:
         """Release resources. Called once, before the context is destroyed."""

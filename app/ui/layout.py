@@ -1,8 +1,8 @@
-"""The layouts: where the windows are docked.
+"""Layouts of docked windows.
 
-A layout is one table: its splits, and the space of each view that it shows. The others are docked,
-hidden, in their own space, or INSTRUMENTS if the layout does not have that. HelloImGui keeps the
-user's changes of each layout, also between runs.
+A layout is one table of its splits and of the space of each view that it shows. Hidden views are
+docked in their own space, or in INSTRUMENTS if the layout lacks that. HelloImGui keeps the user's
+changes of each layout, also between runs.
 """
 
 from __future__ import annotations
@@ -26,15 +26,14 @@ CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
 LECTURE = "Lecture"  # what a lecture shows, each step in its own way
 OUTSIDE, LOOPS = "Outside view", "Loops"
 
-Split = tuple[str, str, imgui.Dir, float]  # space, new space, where, its part of the room
+Split = tuple[str, str, imgui.Dir, float]  # space, new space, direction, its share
 
 
 @dataclass(frozen=True)
 class Layout:
     """A layout.
 
-    use: what it is for, in words. places: view to space, for the views that it shows, in the tabs'
-    order.
+    use: its purpose, in words. places: the space of each view that it shows, in the tabs' order.
     """
 
     name: str
@@ -154,8 +153,9 @@ def window_px() -> tuple[float, float]:
 
 
 def camera_width_px(window_width_px: float, em_px: float) -> float:
-    """Return the width that the camera panel needs for its numbers, at most half of a small
-    window, or more of one in which even short numbers would have no room.
+    """Return the width that the camera panel needs for its numbers.
+
+    It is at most half of a small window, or more if even short numbers would not fit.
     """
     half, most = 0.5 * window_width_px, 0.62 * window_width_px
     return max(min(half, CAMERA_WIDTH_EM * em_px), min(most, LEAST_CAMERA_EM * em_px))
@@ -190,7 +190,7 @@ def is_placed(view: Instrument) -> bool:
     """Return True if ImGui draws a view's window in this frame, or a window that covers it as a
     tab.
 
-    It does not while a window is on its way to a dock.
+    ImGui does not draw a window while it moves to a dock.
     """
     window = imgui.internal.find_window_by_name(view.label)
     if window is not None and window.dock_node is not None:
@@ -206,8 +206,8 @@ def is_to_be_made() -> bool:
 def arrange(views: Iterable[Instrument], places: dict[str, str]) -> None:
     """Show some of these views in other spaces of the present layout, and hide the rest.
 
-    places: view to space. Takes effect in the next frame; views that the user moved return to the
-    layout's place. proportion.py sets the sizes of the spaces.
+    places: the space of each view. The change takes effect in the next frame; views that the user
+    moved return to the layout's place. proportion.py sets the sizes of the spaces.
     """
     layout = current()
     for view in views:
@@ -277,7 +277,7 @@ def node_of(space: str) -> imgui.internal.DockNode | None:
     number = params.dock_space_id_from_name(_own(current(), space))
     node = imgui.internal.dock_builder_get_node(number) if number is not None else None
     if space == MAIN and node is not None:
-        return node.central_node or node  # the name is that of the root, in which it is
+        return node.central_node or node  # the name is that of the root around it
     return node
 
 

@@ -14,9 +14,9 @@ from . import theme
 
 @contextlib.contextmanager
 def lettering(font: imgui.ImFont | None, larger: float = 1.0) -> Iterator[None]:
-    """Set the font of text inside. None: the current font.
+    """Set the font of text drawn inside; None for the current font.
 
-    larger: the type's size, in parts of the window's; for titles.
+    larger: the type size, as a multiple of the window's; for titles.
     """
     usual = theme.type_px()
     imgui.push_font(font, theme.TEXT_PX * theme.whole_px(usual * larger) / usual)
@@ -34,8 +34,9 @@ def underline(color: ImVec4) -> None:
 
 
 def fitting_letters(text: str, width_px: float) -> str:
-    """Return the text, or as many of its first letters as fit, in the current font: for names,
-    which users choose.
+    """Return the text, shortened after a letter if it does not fit, in the current font.
+
+    It suits names, which users choose.
     """
     if imgui.calc_text_size(text).x <= width_px:
         return text
@@ -47,8 +48,9 @@ def fitting_letters(text: str, width_px: float) -> str:
 
 
 def fitting_words(text: str, width_px: float) -> str:
-    """Return the text if it fits, in the current font; else its longest beginning that ends at a
-    comma or semicolon and fits; else as many of its first words as fit.
+    """Return the text, shortened after a word if it does not fit, in the current font.
+
+    It ends at the last comma or semicolon that fits, or else after the last word that fits.
     """
     parts = [text[: found.start()] for found in re.finditer(r"[,;] |$", text)]
     whole = [part for part in parts if part.count("(") == part.count(")")]

@@ -1,4 +1,4 @@
-"""Boxes over the window: errors that must be answered, progress; and a view's error.
+"""Boxes over the window for errors and progress, and the error of a view.
 
 overlay() draws the boxes of other modules too.
 """
@@ -23,9 +23,9 @@ LOADING = "##loading"
 def overlay(
     name: str, at: ImVec2, pivot: tuple[float, float], width: float, edge: ImVec4, flags: int = 0
 ) -> Iterator[None]:
-    """Draw what is inside in a box without a title.
+    """Draw the block's content in a box without a title.
 
-    at, pivot: the place, and the part of the box that is there. edge: the colour of the border.
+    at, pivot: a place, and the point of the box that is there. edge: the colour of the border.
     """
     imgui.set_next_window_pos(at, imgui.Cond_.always, pivot)
     imgui.set_next_window_size((width, 0))
@@ -48,12 +48,12 @@ def top_center(lines: float) -> ImVec2:
 
 
 def box_width(most_em: float, part: float) -> float:
-    """Return a box's width: most_em in type sizes, at most this part of the window."""
+    """Return a box's width: `most_em` type sizes, but at most this fraction of the window."""
     return min(most_em * imgui.get_font_size(), part * imgui.get_main_viewport().work_size.x)
 
 
 def wrapped(text: str, color: ImVec4 | None = None, width: float = 0.0) -> None:
-    """Draw a text in as many lines as it needs. width: 0 for all of the room."""
+    """Draw a text in as many lines as it needs. width: 0 for the full width."""
     imgui.push_text_wrap_pos(imgui.get_cursor_pos_x() + width if width else 0.0)
     imgui.text_colored(theme.TEXT if color is None else color, text)
     imgui.pop_text_wrap_pos()
@@ -75,7 +75,7 @@ def message_box(text: str, answers: Sequence[str] = ("Close",)) -> str:
 
 
 def loading_box(what: str, time_s: float) -> bool:
-    """Draw what is being done, for how long, and a button. Return True if the user cancels."""
+    """Draw the current work, its time and a button. Return True if the user cancels."""
     if time_s < SHOWN_AFTER_S:
         return False
     flags = int(imgui.WindowFlags_.no_focus_on_appearing)
@@ -94,7 +94,7 @@ def loading_box(what: str, time_s: float) -> bool:
 def failure_note(title: str, error: Exception) -> bool:
     """Draw the error of a view that could not be drawn. Return True if the user wants a retry."""
     place, room = imgui.get_cursor_pos(), imgui.get_content_region_avail()
-    margin = 0.5 * imgui.get_font_size()  # images have none
+    margin = 0.5 * imgui.get_font_size()  # views of images have no padding
     imgui.set_cursor_pos(place + ImVec2(margin, margin))
     imgui.begin_group()
     imgui.push_text_wrap_pos(place.x + room.x - margin)

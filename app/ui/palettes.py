@@ -22,8 +22,8 @@ def rgb(text: str, alpha: float = 1.0) -> ImVec4:
 class Palette:
     """The colours of a theme.
 
-    ACCENT, FILL: of the outline and of the ground, under text, of what is chosen.
-    LIT: the ground of what is pointed out in a formula or a program.
+    ACCENT, FILL: the outline of the selection, and its background under text.
+    LIT: the background of a highlight in a formula or a program.
     LINE_WIDTH: the factor for the width of lines that teach.
     """
 
@@ -54,12 +54,12 @@ class Palette:
         return replace(self, BASIS=basis, **parts)
 
 
-# Of a colour's channels, red, green and blue; legible() makes text of them.
+# The colours of the red, green and blue channels; legible() adapts them for text.
 CHANNELS = (rgb("#e5484d"), rgb("#46a758"), rgb("#4f8ff7"))
 
 _BLACK: Any = [rgb("#000000")] * 17
 _NONE = Palette({}, *_BLACK)
-# Okabe and Ito's colours; blue is lightened, or it drowns in the dark background.
+# Okabe and Ito's colours; blue is lightened to stand out from the dark background.
 DARK = _NONE.changed(
     *("#d55e00", "#009e73", "#3f9be0"),
     RAY="#e69f00",

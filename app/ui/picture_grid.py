@@ -1,4 +1,4 @@
-"""Small pictures side by side, each below its heading: as large as fits, with sharp pixels."""
+"""Small pictures side by side with headings, as large as possible and with sharp pixels."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class GridPicture:
     """A picture of the grid.
 
     name: ImGui's id.
-    title, caption: the heading; the title is bold. The caption is next to it, as
-    far as it fits, and in a tooltip.
-    texture: None while there is none.
+    title, caption: the heading; the title is bold. The caption is next to it, shortened if
+    necessary, and in a tooltip.
+    texture: None if there is none yet.
     frame: a colour for its frame; None for the usual line.
-    pixel: the marked one.
+    pixel: the marked pixel.
     """
 
     name: str
@@ -51,8 +51,8 @@ def columns_for(
 ) -> tuple[int, float]:
     """Return the number of columns that makes the pictures largest, and the width of each.
 
-    aspect: width / height of a picture. heading: the height above each. least: the width of a
-    column, unless there is but one. Lengths are in the room's unit.
+    aspect: width / height of a picture. heading: the height above each. least: the least width of
+    a column, unless there is only one. Lengths are in the unit of `room`.
     """
     best = (1, 0.0)
     for columns in range(1, count + 1):
@@ -73,7 +73,7 @@ def picture_grid(
     room: ImVec2,
     fonts: Fonts,
 ) -> Pixel | None:
-    """Draw the pictures from the cursor on, in the room. Return the clicked pixel, or None.
+    """Draw the pictures at the cursor, within `room`. Return the clicked pixel, or None.
 
     size: (width, height) of each picture, in pixels of its own.
     """
@@ -85,7 +85,7 @@ def picture_grid(
     columns, across = columns_for(
         len(pictures), size[0] / size[1], (room.x, room.y), heading, gap, widest
     )
-    unit = across * scale / size[0]  # framebuffer pixels of a picture's pixel
+    unit = across * scale / size[0]  # framebuffer pixels per picture pixel
     unit = float(int(unit)) if unit >= 4 else unit  # whole, so that all have the same size
     extent = ImVec2(*size) * unit / scale
     corner, answer = imgui.get_cursor_screen_pos(), None

@@ -42,7 +42,7 @@ class RecentFiles:
         self._write(())
 
     def look(self) -> None:
-        """Read the list again: another window may have changed it."""
+        """Read the list again, because another window may have changed it."""
         if self._file is not None:
             self.entries = _read(self._file)
 
@@ -56,7 +56,7 @@ class RecentFiles:
 
 
 def _read(file: Path) -> tuple[Path, ...]:
-    """Return the paths in the list's file; none if it is unusable: it is only a convenience."""
+    """Return the paths in the list's file, which is only a convenience; none if it is unusable."""
     try:
         paths = msgspec.json.decode(read_file(file, LARGEST_BYTES), type=list[str])
     except (LucidaError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):

@@ -13,7 +13,7 @@ NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter
 
 
 def is_narrow() -> bool:
-    """Return True if the line that begins here is too short for full labels: very large type."""
+    """Return True if the line that begins here is too short for full labels in very large type."""
     return imgui.get_content_region_avail().x < NARROW_EM * imgui.get_font_size()
 
 
@@ -21,7 +21,7 @@ class Thirds:
     """Lines of a label and three fields. Create it at the beginning of the first of them.
 
     field_px: the width of one field.
-    narrow: labels must be short.
+    narrow: True if labels must be short.
     """
 
     def __init__(self) -> None:
@@ -37,7 +37,7 @@ class Thirds:
 
 
 def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str) -> None:
-    """Draw a name in bold and, where there is room, its meaning in plain type."""
+    """Draw a name in bold, and its meaning in plain type if there is space."""
     narrow = is_narrow()
     imgui.begin_group()
     imgui.align_text_to_frame_padding()
@@ -55,7 +55,7 @@ def label(text: str, role: str, color: ImVec4, fonts: theme.Fonts, tooltip: str)
 def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = False) -> float:
     """Draw the label of a line with one field. Return the field's width.
 
-    derived: not one of the camera's own numbers.
+    derived: True if it is not one of the camera's own numbers.
     """
     if derived:
         imgui.align_text_to_frame_padding()
@@ -68,7 +68,7 @@ def row(text: str, role: str, tooltip: str, fonts: theme.Fonts, derived: bool = 
 
 
 def instead(text: str) -> None:
-    """Draw the reason for a missing field in its place; in several lines if necessary."""
+    """Draw the reason for a missing field in its place, in several lines if necessary."""
     imgui.align_text_to_frame_padding()
     imgui.push_text_wrap_pos(0.0)
     imgui.text_colored(theme.DIM, text)
@@ -126,7 +126,7 @@ def line() -> None:
 
 
 def button_width(label: str) -> float:
-    """Return the width of a button in pixels; of a label, what is before "##"."""
+    """Return the width of a button in pixels. Its text is the part of the label before "##"."""
     return imgui.calc_text_size(label, True).x + 2 * imgui.get_style().frame_padding.x
 
 

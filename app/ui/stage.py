@@ -1,6 +1,6 @@
 """The visibility of views: shown, hidden, or in front.
 
-Includes the views' ImGui windows and their transient state: the focus, and the place of each.
+This module draws the views' ImGui windows, and keeps the focus and the place of each.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ class Stage:
         self.rects: dict[str, Rect] = {}
         self.failed = FailedViews()
         self._next_focus = ""
-        self._by_key = False  # whether the next focus is to be seen
-        self._next_shown = "", ""  # a view, and the layout that it is to be shown in
-        self._keyboard = self._next_keyboard = ""  # the view that has it; "" while nothing has
+        self._by_key = False  # whether to show the next focus
+        self._next_shown = "", ""  # a view, and the layout to show it in
+        self._keyboard = self._next_keyboard = ""  # the view that has it; "" for none
         self._hovered: Instrument | None = None
         self._restoring: Arrangement | None = None
-        self._keyboard_for: str | None = None  # who gets it once all have their places
+        self._keyboard_for: str | None = None  # the view that gets it once all have their places
         self._frames = 0
-        self._layout = ""  # that of the frame before
+        self._layout = ""  # in the previous frame
         self._placing = LAID_OUT  # frames until the windows have their places
 
     @property
@@ -58,7 +58,7 @@ class Stage:
         self._layout = name
         return self._placing > 0 or not all(layout.is_placed(view) for view in self.shown)
 
-    # What actions ask for.
+    # Requests of actions.
 
     @property
     def shown(self) -> list[Instrument]:
@@ -75,7 +75,7 @@ class Stage:
             self._next_focus = name
 
     def show_in(self, name: str, wanted: str) -> None:
-        """Show a view in a layout that has room for it; in a lecture, next to the step's own."""
+        """Show a view in a layout that has a place for it; in a lecture, next to the step's own."""
         self._next_shown = name, wanted
 
     def _show_next(self) -> None:
@@ -90,7 +90,7 @@ class Stage:
             layout.switch(wanted)
 
     def follow(self) -> None:
-        """Follow what was asked for, and move the focus. Call once a frame, before the views."""
+        """Carry out requests, and move the focus. Call once a frame, before the views."""
         self._frames += 1
         self._restore()
         self._show_next()
@@ -105,7 +105,7 @@ class Stage:
             self._by_key = False
 
     def _begin_tab(self) -> None:
-        """Let Tab go into the first view if ImGui knows of no control to go on from."""
+        """Let Tab enter the first view if ImGui has no control to continue from."""
         if self._keyboard or imgui.get_current_context().nav_id or not self.shown:
             return
         io = imgui.get_io()
@@ -182,9 +182,7 @@ class Stage:
     # Drawing.
 
     def leave_out_hidden(self, host: Host) -> None:
-        """Tell hidden views that they are unseen. Call once a frame: HelloImGui does not draw
-        hidden views.
-        """
+        """Notify hidden views, which HelloImGui does not draw. Call once a frame."""
         for view in self.views.values():
             if not layout.window_of(view).is_visible:
                 self._leave_out(view, host)
@@ -218,9 +216,7 @@ class Stage:
         self.failed.draw(view, host)
 
     def _leave_out(self, view: Instrument, host: Host) -> None:
-        """Tell a view that it is not visible in this frame, so that no image is fitted to it any
-        more.
-        """
+        """Notify a view that is not visible in this frame, and fit no image to it any more."""
         self.rects.pop(view.name, None)
         host.renderers.forget_pane(view.name)
         view.unseen(host)

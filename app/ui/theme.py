@@ -18,19 +18,19 @@ from lucida.app.state.options.shared import Preferences
 
 from .contrast import LEGIBLE, SEEN, Rgb, legible_on
 from .palettes import DARK, LIGHT, PRESENTED_DARK, PRESENTED_LIGHT, Palette
-from .palettes import rgb as rgb  # every module that draws has it as theme.rgb
+from .palettes import rgb as rgb  # modules that draw use it as theme.rgb
 
 TEXT_PX = 16.0
 ATLAS_PX = 1024  # the side of the letters' texture, at least
-CAPITAL = 0.591  # the height of capitals in parts of the type's size, at least, in all our fonts
-# The type's size in parts of the window's height: the least in a hall, whose capitals are 1/50 of
-# it, and the largest: 200 % of a window 720 high, 300 % of one 1080 high.
+CAPITAL = 0.591  # the least height of capitals in our fonts, as a fraction of the type size
+# The type size as a fraction of the window's height. The least in a hall makes capitals 1/50 of the
+# height; the largest is 200 % in a window 720 high, and 300 % in one 1080 high.
 HALL, LARGEST = 0.02 / CAPITAL, 0.0445
 
 
 @dataclass(frozen=True)
 class WindowLook:
-    """The settings of the style. scale: of type and spacing, on top of the display's own (DPI)."""
+    """The settings of the style. scale: the factor of type and spacing, without the display's."""
 
     theme: str = "dark"
     presentation: bool = False
@@ -43,7 +43,7 @@ class WindowLook:
         return PRESENTED_DARK if self.presentation else DARK
 
 
-# Of ImGui's style, at 100 %.
+# The sizes of ImGui's style at 100 %.
 SIZES = {
     "window_padding": (10, 8),
     "frame_padding": (6, 4),
@@ -65,7 +65,7 @@ SIZES = {
 }
 _NAMES = {field.name for field in fields(Palette)}
 UNSEEN = ImVec4(0, 0, 0, 0)
-# One entry: the look in use, of the one window of a process.
+# The look in use is the only entry, because a process has one window.
 _used: list[WindowLook] = [WindowLook()]
 
 
@@ -81,8 +81,8 @@ def look_of(
 ) -> WindowLook:
     """Return the look for the preferences and a window of this height, in ImGui's pixels.
 
-    Its scale is the one type size of all that is drawn: only titles are larger, and nothing is
-    smaller. In a lecture it is a hall's, in presentation mode or not.
+    Its scale sets the type size everywhere: only titles are larger, and nothing is smaller. In a
+    lecture it suits a hall, in presentation mode or not.
     """
     wanted, usual, largest = preferences.font_scale, TEXT_PX * dpi_scale, LARGEST * height_px
     size = max(usual * min(wanted, 1.0), min(usual * wanted, largest))
@@ -94,7 +94,7 @@ def look_of(
 def used() -> WindowLook:
     """Return the current look, from which colours are read; use it as a cache key.
 
-    Do not use the preferences: they change first, the look follows when a frame is drawn.
+    Do not use the preferences: they change first, and the look follows when a frame is drawn.
     """
     return _used[0]
 
@@ -126,8 +126,8 @@ def begin(preferences: Preferences) -> None:
     _set_style()
 
 
-# The system's fonts for letters that the window's own lack: Chinese, Japanese and Korean; Arabic,
-# combining marks and others. The first of each that exists is used.
+# The system's fonts for letters that the window's own fonts lack: Chinese, Japanese and Korean;
+# Arabic, combining marks and others. The first existing font of each group is used.
 SYSTEM_FONTS = (
     (
         "/usr/share/fonts/opentype/noto/NotoSansCJK-Regular.ttc",
@@ -168,15 +168,15 @@ class Fonts:
     def load(self) -> None:
         """Load the fonts. Called by HelloImGui.
 
-        The atlas has room for all sizes from the beginning. When it grows, ImGui discards sizes and
-        moves the others in memory, and its FreeType loader then draws some letters too small.
+        The atlas has space for all sizes from the beginning. When it grows, ImGui discards sizes
+        and moves the others in memory, and its FreeType loader then draws some letters too small.
         """
         atlas = imgui.get_io().fonts
         atlas.tex_min_width = atlas.tex_min_height = ATLAS_PX
         self.text = _load_font("Roboto/Roboto-Regular.ttf")
         self.bold = _load_font("Roboto/Roboto-Bold.ttf")
         raised = hello_imgui.FontLoadingParams()
-        raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits sit lower than Roboto's
+        raised.font_config.glyph_offset = ImVec2(0, -1)  # its digits are lower than Roboto's
         raised.font_config.extra_size_scale = 1.03  # and its capitals would be lower
         self.mono = _load_font("Inconsolata-Medium.ttf", raised)
 
@@ -185,8 +185,8 @@ def _set_style() -> None:
     """Set ImGui's style for the current palette: flat, aligned; at 100 %."""
     look = _used[0]
     colors = look.palette
-    # Reset all sizes, since a theme does not set all of them. Scaled again at each change, the
-    # smallest window would soon be larger than the screen, and the x of a tab as thick as wide.
+    # Reset all sizes, since a theme does not set all of them. Each change would scale them again:
+    # the smallest window would soon exceed the screen, and a tab's x would be as thick as wide.
     fresh = imgui.Style()
     for name in dir(fresh):
         value = getattr(fresh, name)
@@ -265,7 +265,7 @@ def line_px(at_100_percent: float = 1.0) -> float:
 def legible(color: ImVec4) -> ImVec4:
     """Return the colour for text: yellow and orange are darkened in the light themes.
 
-    The ground of lit text is the one that is hardest to read on.
+    It is legible even on a highlight, the background that is hardest to read on.
     """
     return seen_on(color, _rgb(_used[0].palette.LIT), LEGIBLE)
 

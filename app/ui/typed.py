@@ -1,4 +1,4 @@
-"""A number field during typing: fractions, roots and sums, and the error of any other text.
+"""A number field during typing: it accepts fractions, roots and sums, and reports other text.
 
 ImGui starts the typing (double click, Ctrl+click, Enter, Tab) with a text field that takes only
 digits. From the next frame on, this one replaces it.
@@ -24,7 +24,7 @@ class _Typing:
     before: the value that Esc restores.
     text: the text so far.
     wrong: its error.
-    is_new: not drawn yet; the widget's own text must be replaced.
+    is_new: True until it is drawn, when the widget's own text must be replaced.
     """
 
     before: float
@@ -33,8 +33,8 @@ class _Typing:
     is_new: bool = True
 
 
-# By the fields' ids. There is one keyboard, but where Tab leads from one field to the next, both
-# are open for a frame.
+# By the fields' ids. There is one keyboard, but when Tab leads from one field to the next, both are
+# open for a frame.
 open_fields: dict[int, _Typing] = {}
 
 
@@ -47,7 +47,7 @@ def take_over(label: str, value: float, changed: bool) -> bool:
     """Return True if the number's widget has begun to take text; field() then continues. Call after
     the widget.
 
-    changed: letters were typed already. They stay; the value that the widget read does not count.
+    changed: True if letters were typed already. They are kept, and the widget's value is ignored.
     """
     item = imgui.get_id(f"##{label}")
     has_begun = bool(imgui.internal.temp_input_is_active(item))
@@ -64,7 +64,7 @@ def field(label: str, value: float) -> tuple[bool, float]:
     item = imgui.get_id(f"##{label}")
     typing = open_fields[item]
     if typing.is_new:
-        # The text is the widget's, rounded, and was there for a frame under the same id.
+        # The text is the widget's: it is rounded, and has been there for a frame under this id.
         state = imgui.internal.get_input_text_state(item)
         if state is not None:
             state.reload_user_buf_and_select_all()

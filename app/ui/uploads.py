@@ -1,4 +1,4 @@
-"""Pictures that were made as arrays, as textures that ImGui can show."""
+"""Textures of pictures that are arrays, for ImGui."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lucida.renderer.raster.resources import check
 from lucida.renderer.system.memo import same
 
-ENLARGED_PX = 640  # about a texture's width, where a picture's pixels are made larger
+ENLARGED_PX = 640  # the approximate width of a texture with enlarged pixels
 KEPT_FRAMES = 3  # the window may still show a texture in the frame in which it was replaced
 
 
@@ -26,8 +26,10 @@ class Uploads:
         self._magnified: dict[str, tuple[Any, ...]] = {}  # the arguments of magnified()
 
     def put(self, name: str, picture: NDArray[np.uint8]) -> None:
-        """Upload a picture (H, W, 3), or 4 with opacity, sRGB, row 0 at the top, replacing the last
-        one of that name. Raises LucidaError if there is no memory for it.
+        """Upload a picture, replacing the last one of that name.
+
+        picture: (H, W, 3), or (H, W, 4) with opacity; sRGB, row 0 at the top. Raises LucidaError if
+        there is no memory for it.
         """
         self.drop(name)
         height, width, components = picture.shape
@@ -57,7 +59,7 @@ class Uploads:
     ) -> moderngl.Texture:
         """Return a texture of (width, height) with a part of a picture, by nearest neighbour.
 
-        corner, extent: of the part, as fractions of the picture's width and height.
+        corner, extent: the part's, as fractions of the picture's width and height.
         """
         key = picture, size, corner, extent
         if name not in self._textures or not same(self._magnified.get(name), key):

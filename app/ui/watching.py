@@ -1,6 +1,7 @@
 """Watch files while somebody edits them.
 
-Asked in each frame, it looks now and then, and reports a change once it has come to rest.
+Poll a watch in each frame: it looks at the files now and then, and reports a change once they have
+stopped changing.
 """
 
 from __future__ import annotations
@@ -17,16 +18,16 @@ from lucida.renderer.scene import Scene
 from lucida.renderer.scene.limits import TOML_BYTES
 from lucida.renderer.system.file_dependencies import Noted, Stamp, noting, stamp
 
-LOOK_S = 0.25  # from look to look, however many frames there are
-REST_S = 0.15  # an editor may write a file in several goes: for how long a change must have rested
+LOOK_S = 0.25  # between looks, at any frame rate
+REST_S = 0.15  # the least age of a change, because editors may write a file in several steps
 MOST = 64  # files that are looked at
 
 
 class FilesWatch:
-    """Watches files.
+    """A watch on files.
 
-    files: their stamps when they were last read; None for a missing one.
-    A missing file is no change, because editors replace files; a new one is.
+    files: each file's stamp when it was last read; None for a missing file.
+    A file that disappears is not a change, because editors replace files; a new file is one.
     """
 
     def __init__(self, files: Noted) -> None:
@@ -40,7 +41,7 @@ class FilesWatch:
 
     @property
     def waiting(self) -> bool:
-        """True if a change has been seen that has not come to rest: ask again soon."""
+        """True if files are still changing, so that the caller should poll again soon."""
         return self._seen is not None
 
     def follow(self, files: Noted) -> None:
@@ -51,7 +52,7 @@ class FilesWatch:
         self._seen = None
 
     def changed(self, time_s: float) -> bool:
-        """Return True, once for each change, if a file has changed and come to rest."""
+        """Return True, once for each change, if a file has changed and stopped changing."""
         if time_s - self._looked_s < LOOK_S:
             return False
         self._looked_s = time_s
@@ -72,8 +73,8 @@ class FilesWatch:
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[None]:
-        """Record and watch all files that are read inside, on any thread, also missing ones, even
-        if reading fails.
+        """Record and watch all files that the block reads, on any thread, including missing ones,
+        even if reading fails.
         """
         with noting() as noted:
             try:
@@ -84,18 +85,18 @@ class FilesWatch:
                     self._files = tuple(dict.fromkeys((*noted, *self._files)))[:MOST]
 
     def take_present(self) -> None:
-        """Record the files as they are now: this program has written them."""
+        """Record the files as they are now, because this program has written them."""
         self.know({file: stamp(file) for file in self._files})
 
     def know(self, files: Noted) -> None:
         """Record the files as they were read, or written, just now."""
         with self._lock:
-            self._known = {**self._known, **files}  # not in place: it may be looked through
+            self._known = {**self._known, **files}  # a new dict: a thread may be reading the old
 
 
 class SceneWatch(FilesWatch):
-    """A watch for one window. Undo may bring back a scene of an older version of its file: that
-    stays until the file is saved again.
+    """A watch for one window. Undo may restore a scene from an older version of its file; that
+    scene stays until the file is saved again.
     """
 
     def __init__(self) -> None:

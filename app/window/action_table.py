@@ -1,4 +1,4 @@
-"""Everything that a menu or a key does, in one table.
+"""One table of all actions of menus and keys.
 
 Menus, shortcuts and the shortcut sheet are made from ACTIONS; nothing else binds a key.
 """
@@ -54,7 +54,7 @@ MOUSE = (
 
 
 CHORDS = [(chord, action) for action in ACTIONS for chord in action.chords]
-# While a text is typed, these keys belong to its field, whether it uses them or not.
+# These keys belong to a text field while it is being typed into, whether it uses them or not.
 OF_TEXT = chords_of("Delete, Ctrl+A, Ctrl+C, Ctrl+D")
 
 

@@ -28,7 +28,7 @@ def _theme(name: Theme, title: str) -> Action:
 
 
 def scaled(state: AppState, step: int) -> AppState:
-    """Return the state with type that is one step larger or smaller; step 0: at 100 %."""
+    """Return the state with type one step larger or smaller; step 0 resets it to 100 %."""
     scale = state.preferences.font_scale
     if step > 0:
         scale = min((s for s in FONT_SCALES if s > scale + 1e-6), default=LARGEST_SCALE)

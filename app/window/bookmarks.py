@@ -1,6 +1,6 @@
-"""Views to come back to, by the keys 1 to 9.
+"""Bookmarks of views, on the keys 1 to 9.
 
-They are options, so undo and sessions have them.
+They are options, so undo and sessions include them.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ NUMBERS = range(1, MOST_BOOKMARKS + 1)
 
 
 def store(window: Host, number: int) -> None:
-    """Keep the present view under a number, 1 to 9, and report it."""
+    """Save the present view under a number, 1 to 9, and report it."""
     options = window.options
     others = [mark for mark in options.bookmarks if mark.number != number]
     marks = sorted([*others, Bookmark(number, window.state.view)], key=lambda mark: mark.number)

@@ -1,8 +1,8 @@
 """An offscreen target for the window's frames, of which only the finished ones are shown.
 
-While ImGui's windows move to other places it hides them for some frames. Those frames are drawn
-offscreen, and the last picture stays. On the null platform the window's own framebuffer keeps the
-size that it was made with, at most that of an imaginary monitor of 1920 x 1080; a canvas has any.
+ImGui hides its windows for some frames while they move. Those frames are drawn offscreen, and the
+last picture stays. On the null platform the window's own framebuffer keeps its initial size, at
+most that of an imaginary monitor of 1920 x 1080; a canvas may have any size.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ import numpy as np
 
 from lucida.renderer.raster.resources import new_texture
 
-MOST_KEPT = 30  # frames in a row that are not shown: whatever goes wrong, the window goes on
+MOST_KEPT = 30  # frames in a row that are not shown, so that an error cannot freeze the window
 Size = tuple[int, int]
 
 
@@ -45,8 +45,11 @@ class WindowCanvas:
         self.keeps = False
 
     def bind(self, size: Size, unfinished: bool) -> Target:
-        """Call before ImGui draws. size: (width, height) of the frame, in pixels. unfinished: it is
-        not to be shown: the picture stays that was drawn before, where that is of the same size."""
+        """Bind the frame's target. Call before ImGui draws.
+
+        size: (width, height) of the frame, in pixels. unfinished: True to keep showing the last
+        picture if that has the same size.
+        """
         fits = self._shown is None or self._shown.size == size
         self.keeps = unfinished and fits and self._kept < MOST_KEPT
         self._kept = self._kept + 1 if unfinished else 0
@@ -81,7 +84,7 @@ class WindowCanvas:
             return old
         new = self._context.framebuffer([new_texture(self._context, size, 4, "uint8")])
         new.use()
-        # Not before: while it makes a framebuffer, moderngl binds the last one again.
+        # Release it last, because moderngl binds it again while creating the new one.
         if old is not None:
             _release(old)
         return new

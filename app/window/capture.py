@@ -1,4 +1,4 @@
-"""Pictures of the window: free names for them, and parts of them."""
+"""Unused file names for pictures of the window, and parts of such pictures."""
 
 from __future__ import annotations
 

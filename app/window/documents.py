@@ -1,6 +1,6 @@
-"""The documents, to be read in the window: Getting started, and all the others.
+"""The documents that the window shows: Getting started and all others.
 
-imgui_md draws their Markdown. It loads its fonts when a document is drawn for the first time.
+imgui_md draws their Markdown. It loads its fonts when a document is first drawn.
 """
 
 from __future__ import annotations
@@ -50,8 +50,10 @@ def folder() -> Path:
 
 
 class Documents:
-    """shown: the name of the open document, GETTING_STARTED, KEYS or ABOUT; "" for none. keys:
-    returns the text of KEYS.
+    """The box of documents.
+
+    shown: the name of the open document, GETTING_STARTED, KEYS or ABOUT; "" for none. keys: returns
+    the text of KEYS.
     """
 
     def __init__(self, keys: Callable[[], str]) -> None:
@@ -64,11 +66,11 @@ class Documents:
         self._is_new = False
 
     def begin(self, context: moderngl.Context) -> None:
-        """Call once, when there is a context."""
+        """Prepare the pictures. Call once, when there is a context."""
         self._context = context
 
     def end(self) -> None:
-        """Call once, before the context is destroyed."""
+        """Release the pictures. Call once, before the context is destroyed."""
         for texture in self._pictures.values():
             texture.release()
         self._pictures.clear()
@@ -113,7 +115,7 @@ class Documents:
             self.shown = ""
 
     def _tiles(self) -> None:
-        """Draw the first things to do, each with a picture."""
+        """Draw the first steps for a new user, each with a picture."""
         if imgui.begin_table("tiles", COLUMNS, imgui.TableFlags_.sizing_stretch_same):
             for name, text in TILES.items():
                 imgui.table_next_column()
@@ -154,7 +156,7 @@ class Documents:
             webbrowser.open(address)
 
     def _picture(self, name: str) -> imgui_md.MarkdownImage | None:
-        """Return a document's picture, as wide as it is, or as there is room."""
+        """Return a document's picture at its own width, or narrower to fit."""
         texture = self._pictures.get(name) or self._load(name)
         if texture is None:
             return None

@@ -1,4 +1,4 @@
-"""The window's state: the present one with its history, and how changes become steps of undo."""
+"""The window's present state with its history, to which changes add undo steps."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ from .playing import Playing
 
 class Edits:
     """The part of ui/host.py's Host that changes the state. All changes while an item is held are
-    one step of undo.
+    one undo step.
 
-    A change ends a movement between two states, because it would come from a state on the way.
+    A change ends a movement between two states, because it would start from a state in between.
     """
 
     renderers: Renderers
@@ -34,7 +34,7 @@ class Edits:
 
     @property
     def state(self) -> AppState:
-        """The present state, or the one that a movement shows on its way there."""
+        """The present state, or the one that a movement towards it shows."""
         return self.playing.shown or self.history.present
 
     @property
@@ -46,8 +46,8 @@ class Edits:
         return self.history.present
 
     def note_gesture(self) -> bool:
-        """Begin another step of undo if an item has become active. Return True while one is. Call
-        once a frame.
+        """Begin another undo step if an item has become active. Return True while one is active.
+        Call once a frame.
         """
         active = imgui.is_any_item_active()
         if active and not self._was_active:
@@ -70,7 +70,7 @@ class Edits:
             self.history = self.history.change(state)
 
     def amend(self, state: AppState) -> None:
-        if not self.playing.under_way:  # otherwise asked for again after the movement
+        if not self.playing.under_way:  # otherwise repeated after the movement
             self.history = self.history.amended(state)
 
     def move(

@@ -1,4 +1,4 @@
-"""File > Export: the scene and its camera for other renderers, or as a page."""
+"""File > Export, which exports the scene and its camera for other renderers, or as a page."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NOT_CARRIED = "Not as it is there:"
 def ask_export(host: Host) -> None:
     """Ask for a file, whose ending names the format, and export into it in the background.
 
-    What a format cannot hold is listed in a message.
+    A message lists the features that the format cannot hold.
     """
     scene, camera, size = host.state.scene, host.renderers.camera(host.state), image_size(host)
 

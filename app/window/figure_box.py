@@ -1,4 +1,4 @@
-"""The box of File > Export figure: what the figure shows, its size, its ground; a preview."""
+"""The box of File > Export figure, with the figure's content, size, background and preview."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from .figure_choice import ENDINGS, FigureChoice, Ground, What, check_ending
 from .figures import encoder, figure_of, painted
 
 TITLE, PREVIEW_EM = "Export figure", 22.0
-GRAY = 128  # under what is transparent
+GRAY = 128  # behind transparent pixels
 NAMES: dict[What, str] = {
     "outside": "Outside view",
     "raster": "Raster image",
@@ -35,7 +35,7 @@ NAMES: dict[What, str] = {
 
 
 class FigureBox:
-    """choice: the figure. focused: see Box."""
+    """The box of a figure. choice: the figure. focused: see Box."""
 
     def __init__(self, host: Host, choice: FigureChoice) -> None:
         self._host, self.choice = host, choice
@@ -97,7 +97,7 @@ class FigureBox:
         self.choice = one
 
     def _preview(self) -> None:
-        """Draw the figure, smaller, over a gray that shows what is transparent."""
+        """Draw the figure, reduced, over gray so that transparent parts are visible."""
         em = imgui.get_font_size()
         share = PREVIEW_EM * em / max(self.choice.size)
         width, height = (max(1, round(share * side)) for side in self.choice.size)
@@ -140,5 +140,5 @@ class FigureBox:
 
 
 def ask_figure(host: Host) -> None:
-    """Open the box, with the outside view at first."""
+    """Open the box, with the outside view selected."""
     host.box = FigureBox(host, FigureChoice())

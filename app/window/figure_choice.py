@@ -1,4 +1,4 @@
-"""The choice of a figure: what it shows, its size, scale and ground. Loads no window."""
+"""The choice of a figure's content, size, scale and background. Importing it loads no window."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ ENDINGS = (".svg", ".pdf", ".png")
 
 @dataclass(frozen=True)
 class FigureChoice:
-    """A figure. size: of the page, in pixels. scale: of lines and letters. ground: of the page, as
-    the window shows it or not.
+    """A figure. size: the page's, in pixels. scale: the factor of lines and letters. ground: the
+    page's background, as the window shows it or not.
     """
 
     what: What = "outside"
@@ -28,7 +28,7 @@ class FigureChoice:
 
 
 def check_ending(path: str | Path) -> str:
-    """Return a file's ending. Raises LucidaError if no figure has it."""
+    """Return a file's ending. Raises LucidaError if it is not one of a figure."""
     ending = Path(path).suffix.lower()
     if ending not in (*ENDINGS, ".tex"):
         raise LucidaError(

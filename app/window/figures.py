@@ -1,4 +1,4 @@
-"""Figures for slides and papers: the outside view, an image or both, or the probe, in a file."""
+"""Figures for slides and papers: files of the outside view, one or both images, or the probe."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ from lucida.renderer.system.errors import LucidaError
 
 from .figure_choice import ENDINGS, FigureChoice, What
 
-GAP = 0.02  # between the pair, in parts of the width
-FORMULA_PX = 24.0  # of the probe's formulas
+GAP = 0.02  # between both images, as a fraction of the width
+FORMULA_PX = 24.0  # type size of the probe's formulas
 FACES = Path(imgui_bundle.__file__).parent / "assets" / "fonts" / "Roboto"
-SAMPLES = 2  # a side of a PNG's pixel: resvg does not average the pixels of a larger image
-FINE = 4  # their pixels a side of each of the page's
-FORMULA_GAP, ROW_GAP = 0.3, 0.4  # from one to the next, in parts of their size
+SAMPLES = 2  # per side of a PNG's pixel, because resvg does not average a larger image's pixels
+FINE = 4  # pixels of an image per side of a pixel of the page
+FORMULA_GAP, ROW_GAP = 0.3, 0.4  # between formulas, as fractions of their size
 
 
 def figure_of(host: Host, choice: FigureChoice) -> Figure:
@@ -64,10 +64,10 @@ def figure_of(host: Host, choice: FigureChoice) -> Figure:
 
 
 def encoder(host: Host, choice: FigureChoice) -> Callable[[str], bytes]:
-    """Return a function that makes a figure's file for an ending, on any thread. An image has the
-    page's pixels, unless the window's resolution is set.
+    """Return a function that makes a figure's file for an ending, on any thread.
 
-    Raises LucidaError, moderngl.Error.
+    An image has the page's pixels, unless the window's resolution is set. Raises LucidaError,
+    moderngl.Error.
     """
     name, is_probe = host.state.scene.name, choice.what == "probe"
     if _names(choice) and host.state.images.resolution is None:
@@ -80,7 +80,7 @@ def encoder(host: Host, choice: FigureChoice) -> Callable[[str], bytes]:
 
 
 def _page(host: Host, choice: FigureChoice) -> tuple[Color, Color | None]:
-    """Return the colour of the page, and of its ground; None for a transparent one."""
+    """Return the colour of the page, and of its background; None for a transparent background."""
     behind = ground_of(host.state.scene.background, host.state.images.exposure_ev)
     if choice.what == "probe":
         behind = theme.PANEL.x, theme.PANEL.y, theme.PANEL.z
@@ -103,13 +103,13 @@ def _encoded(make: Callable[[], Figure], title: str, latex: str, ending: str) ->
         return drawing.encode()
     width, height = figure.size
     style = f"@page{{size:{width}px {height}px;margin:0}}body{{margin:0}}svg{{display:block}}"
-    drawing = drawing.partition("?>")[2]  # in a page, it is no file of its own
+    drawing = drawing.partition("?>")[2]  # embedded in a page, it has no XML declaration
     return pdf.pdf(f"<!DOCTYPE html><style>{style}</style>{drawing}", pdf.browser())
 
 
 def painted(figure: Figure) -> Image.Image:
-    """Return a figure as pixels of its page, sRGB and opacity: its SVG file, drawn by resvg."""
-    import resvg_py  # for PNG files alone
+    """Rasterize a figure's SVG file with resvg. Return sRGB and opacity in pixels of its page."""
+    import resvg_py  # only for PNG files
 
     faces = [str(FACES / f"Roboto-{face}.ttf") for face in ("Regular", "Bold")]
     drawn = resvg_py.svg_to_bytes(
@@ -171,7 +171,7 @@ def _images_anew(host: Host, choice: FigureChoice) -> Callable[[], Figure]:
 
 
 def _extent(choice: FigureChoice, shape: Size) -> Size:
-    """Return the size of each image on the page: as large as there is room, of a size's shape."""
+    """Return the largest size of each image on the page that has the aspect ratio of `shape`."""
     count = len(_names(choice))
     room = (1 - GAP * (count - 1)) * choice.size[0] / count, choice.size[1]
     scale = min(room[0] / shape[0], room[1] / shape[1])

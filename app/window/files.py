@@ -1,6 +1,6 @@
-"""Opening and saving from the window: dialogs, dropped files, loading in the background.
+"""Open and save files from the window: dialogs, dropped files, loading in the background.
 
-The dialogs are the system's, or a box for a path if there is none. Threads load and save.
+The dialogs are the system's, or a box for a path if there are none. Threads load and save.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ from lucida.renderer.system.errors import describe, one_line
 from .kinds import CODE_ENDING
 from .opening import Opened, OpenedLecture, OpenedScene, OpenedView, open_sources, reread
 
-LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # what the dialogs are drawn by
+LINUX_DIALOGS = ("zenity", "kdialog", "matedialog", "qarma")  # programs that draw dialogs
 
 Paths = Callable[[list[str]], None]
-Load = Callable[[frozenset[Path]], "Opened"]  # given what the user has agreed to
+Load = Callable[[frozenset[Path]], "Opened"]  # takes the files that the user has agreed to
 
 
 OPEN = "Open anyway"
@@ -50,9 +50,9 @@ class WindowQuestion:
 class Files:
     """The files of one window.
 
-    wake: called from another thread when something has been loaded. folder: of the list of recent
-    files; None keeps none. native: the system's dialogs may be used. message: what went wrong.
-    question: what the user must agree to.
+    wake: called from another thread when something has been loaded. folder: the folder of the list
+    of recent files; None keeps no list. native: True to use the system's dialogs. message: the last
+    error. question: the question that the user must answer.
     """
 
     def __init__(
@@ -64,8 +64,8 @@ class Files:
         self._rereading: Background[Opened] = Background("lucida-reread", wake)
         self._watch = SceneWatch()
         self._guarded: dict[str, frozenset[Path]] = {}  # by the file's name: Opened.agreed
-        self._reread: Scene | None = None  # the last one whose files were saved
-        self._mistake = ""  # in one of them
+        self._reread: Scene | None = None  # the last scene whose files were saved
+        self._mistake = ""  # an error in one of its files
         self._saving: Background[str] = Background("lucida-save", wake, every=True)
         self._asking: tuple[dialogs.open_file | dialogs.save_file, Paths] | None = None
         self.native = native
@@ -86,12 +86,12 @@ class Files:
 
     @property
     def loading(self) -> str:
-        """The name of what is being loaded; empty while nothing is."""
+        """The name of the source that is being loaded; empty for none."""
         return self._source if self._loading.busy else ""
 
     @property
     def loading_s(self) -> float:
-        """The time of the loading so far, in seconds."""
+        """The time for which it has been loading, in seconds."""
         return time.monotonic() - self._began_s if self._loading.busy else 0.0
 
     def open(self, source: str) -> None:
@@ -101,16 +101,16 @@ class Files:
     def open_all(self, sources: Sequence[str], dropped: bool = False) -> None:
         """Load the first thing of each kind among several sources.
 
-        dropped: the user has not named them, and may not know which files they name.
+        dropped: True if the user may not know which other files the sources name.
         """
         if sources:
             self._load(sources[0], lambda agreed: open_sources(sources, dropped, agreed))
 
     def follow(self, scene: Scene) -> bool:
-        """Read the shown scene again if its files were saved. Call once a frame; poll() has the
+        """Read the shown scene again if its files were saved. Call once a frame; poll() returns the
         result.
 
-        Return True if a change is being awaited, so that the caller asks again soon.
+        Return True if files are still changing, so that the caller should call again soon.
         """
         self._watch.shown(scene)
         if not self._loading.busy and self._watch.changed(time.monotonic()):
@@ -154,7 +154,7 @@ class Files:
         self.save_as_dialog("Save the view", "view.toml", ("View files", ".toml"), store)
 
     def know(self, saved: Scene) -> None:
-        """Record that the window has written a scene's file itself: nobody else has changed it."""
+        """Record that the window itself has written a scene's file, to avoid reading it again."""
         assert saved.origin is not None
         self._watch.know(saved.origin.files)
         self._watch.take_present()
@@ -169,7 +169,7 @@ class Files:
                 paths = [result] if isinstance(result, str) else list(result)
                 if any(paths):
                     chosen(paths)
-            except UnicodeDecodeError:  # the binding's: it knows no other names
+            except UnicodeDecodeError:  # from the binding, which requires UTF-8
                 self.message = (
                     "The system's dialog cannot name this file: its name is not UTF-8; "
                     "drop it on the window, or give it on the command line."
@@ -178,7 +178,7 @@ class Files:
         if saved is not None and saved.error is not None:
             self.message = describe(saved.error)
         elif saved is not None and "\n" in (text := saved.value or ""):
-            self.message = text  # to be read
+            self.message = text  # long texts must be read
         elif saved is not None:
             self._said.append(text)
         return self._poll_loading() or self._poll_reread()
@@ -198,11 +198,11 @@ class Files:
         return outcome.value
 
     def _poll_reread(self) -> Opened | None:
-        """Return a newer version of the shown scene. After a mistake, the last good one stays."""
+        """Return a newer version of the shown scene. The last valid one stays after an error."""
         outcome = self._rereading.poll()
         if outcome is None or not self._watch.shows_version_of(self._reread):
             return None
-        if self.message == self._mistake:  # the one before is mended, or another one now
+        if self.message == self._mistake:  # the last error is fixed, or replaced by another
             self.message = ""
         self._mistake = ""
         if outcome.error is not None:
@@ -210,7 +210,7 @@ class Files:
         return outcome.value
 
     def poll_said(self) -> list[str]:
-        """Return what was done since the last call, in words."""
+        """Return messages on completed work since the last call."""
         said, self._said = self._said, []
         return said
 
@@ -220,7 +220,7 @@ class Files:
         self._wake()
 
     def say(self, text: str) -> None:
-        """Report something else that was done through poll_said()."""
+        """Add a message that poll_said() returns."""
         self._said.append(text)
         self._wake()
 
@@ -231,7 +231,7 @@ class Files:
         self._saving.close(5.0)
 
     def _load(self, source: str, load: Load, agreed: frozenset[Path] = frozenset()) -> None:
-        self.cancel()  # the newest wins, and does not wait for what takes long
+        self.cancel()  # the newest request does not wait for a slow one
         self.message, self.question = "", None
         self._again = lambda more: self._load(source, load, agreed | more)
         self._source = one_line(Path(source).name)
@@ -263,14 +263,14 @@ class Files:
     def save_as_dialog(
         self, title: str, name: str, kind: tuple[str, ...], store: Callable[[str], str]
     ) -> None:
-        """Ask for a place, and store something there in the background.
+        """Ask for a path, and save to it in the background.
 
-        kind: as in ask_name(). store: stores it, and returns a message on what it did.
+        kind: as in ask_name(). store: saves to the path, and returns a message for the user.
         """
         self.ask_name(title, name, kind, lambda path: self.store(lambda: store(path)))
 
     def store(self, store: Callable[[], str]) -> None:
-        """Store something in the background. store: returns a message on what it did, of several
+        """Save in the background. store: saves, and returns a message for the user, with several
         lines if it must be read.
         """
         self._saving.submit(store)
@@ -280,7 +280,7 @@ class Files:
     ) -> None:
         """Ask for a name to save under.
 
-        kind: in words, and the endings, of which the first is added to a name without one; "" for a
+        kind: the kind in words, and its endings; the first is added to a name without one; "" for a
         folder. named: called with the path.
         """
         words, *endings = kind
@@ -298,7 +298,7 @@ class Files:
         self._ask(FileQuestion(title, False, endings, "", chosen), words)
 
     def _ask(self, question: FileQuestion, words: str) -> None:
-        """Ask for files. words: for those with the endings."""
+        """Ask for files. words: a description of files with the endings."""
         if self._asking is not None or self.dialog.is_open:
             return
         listed = " ".join(f"*{ending}" for ending in question.endings)
@@ -314,7 +314,7 @@ class Files:
 
 
 def outside_question(name: str, files: Sequence[Path]) -> str:
-    """Return the question about files outside a folder. name: of the file that names them."""
+    """Return the question about files outside a folder. name: the file that names them."""
     named = [f"    {one_line(str(file))}" for file in files]
     if len(named) > LISTED:
         named[LISTED:] = [f"    and {len(named) - LISTED} more"]

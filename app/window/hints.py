@@ -1,4 +1,4 @@
-"""The hints of the first start: four things to try, over the images, until one of them is tried."""
+"""The hints of the first start: four things to try, shown over the images until one is tried."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from lucida.app.ui.lettering import lettering
 from lucida.app.ui.messages import overlay
 from lucida.app.ui.stage import Rect
 
-SEEN = "hints-seen"  # the file that remembers it
+SEEN = "hints-seen"  # the file that records this
 HINTS = {
     RASTER: (("Drag", "to turn the camera"), ("Click", "a pixel to mark it")),
     RAY: (("P", "for parallel projection"),),
@@ -26,7 +26,9 @@ WIDTH_EM = 16.0
 
 
 class Hints:
-    """shown: they are visible. folder: of the settings; None shows none."""
+    """The hints of a window. shown: True while they are visible. folder: the settings folder; None
+    shows no hints.
+    """
 
     def __init__(self, folder: Path | None) -> None:
         self._file = folder / SEEN if folder is not None else None
@@ -34,7 +36,7 @@ class Hints:
         self._first: AppState | None = None
 
     def draw(self, window: Host, rects: dict[str, Rect]) -> None:
-        """Draw the hints over both images, and remove them for ever once one was followed."""
+        """Draw the hints over both images, and remove them for good once one was followed."""
         state = window.present
         if self.shown and self._was_followed(state):
             self.shown = False

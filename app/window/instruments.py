@@ -1,7 +1,7 @@
 """The list of instruments, one line each, in the order of their views in menus and tabs.
 
 The camera's panel comes first, so that the images show its changes in the same frame. An instrument
-that draws into another one's view, or shares its mouse, comes after that one.
+that draws into another one's view, or shares its mouse input, comes after that one.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
-"""GLFW's keyboard events as ImGui's.
+"""Translate GLFW's keyboard events to ImGui's.
 
-ImGui's own backend asks GLFW for the modifiers when it passes a key on. That is too late for a key
-that has waited for its frame (keys.py): Ctrl may have been let go. Here they are the event's own.
+ImGui's own backend queries the modifiers when it passes a key on. That is too late for a key that
+has waited for its frame (keys.py), because Ctrl may have been released. This module uses the
+event's own modifiers.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from imgui_bundle import imgui  # before glfw, so that both use the same GLFW li
 # isort: split
 import glfw
 
-# By modifier: its bit, its left and right key, and what ImGui calls it.
+# For each modifier: its bit, its left and right key, and ImGui's name for it.
 _MODIFIERS = (
     (glfw.MOD_CONTROL, (glfw.KEY_LEFT_CONTROL, glfw.KEY_RIGHT_CONTROL), imgui.Key.mod_ctrl),
     (glfw.MOD_SHIFT, (glfw.KEY_LEFT_SHIFT, glfw.KEY_RIGHT_SHIFT), imgui.Key.mod_shift),
@@ -32,8 +33,8 @@ def give_key(key: int, code: int, action: int, modifiers: int) -> None:
 
 
 def _on_layout(key: int, code: int) -> int:
-    """Return the key with what the user's keyboard has in this place. GLFW names keys by their
-    places on a US keyboard, and gives those with a sign the number that ASCII gives the sign.
+    """Return the key that the user's keyboard layout has at this position. GLFW names keys by their
+    position on a US keyboard, and numbers character keys as ASCII does.
     """
     if not glfw.KEY_SPACE < key <= glfw.KEY_WORLD_2:
         return key

@@ -1,10 +1,10 @@
-"""The keyboard's events on their way to ImGui, frame by frame.
+"""Pass keyboard events to ImGui, frame by frame.
 
-A frame of ImGui's has one set of modifiers, those at its end, and takes one change of each key:
-what comes after waits for the next frame, with whatever modifiers there are then. Where Ctrl is
-let go in the frame in which P was pressed (by a remote desktop, a macro pad, or any hand while a
-frame is slow), it would see P alone. Owns what waits, so that each key has its own modifiers. Knows
-nothing of windows, nor of what keys do.
+An ImGui frame has one set of modifiers, those at its end, and accepts one change of each key. Later
+changes wait for the next frame and get its modifiers. If Ctrl is released in the frame in which P
+was pressed (by a remote desktop, a macro pad, or anybody during a slow frame), ImGui would see P
+alone. This module therefore keeps the waiting events, so that each key has its own modifiers. It is
+independent of windows and of the keys' actions.
 """
 
 from __future__ import annotations
@@ -12,20 +12,22 @@ from __future__ import annotations
 from collections.abc import Callable
 
 PRESS, REPEAT = 1, 2  # as GLFW numbers actions
-MODIFIERS = range(340, 348)  # and keys: Shift, Ctrl, Alt, Super, left and right
+MODIFIERS = range(340, 348)  # GLFW's keys: Shift, Ctrl, Alt, Super, left and right
 CHARACTER = 1  # the length of an event that is one
 
 
 class KeyFrames:
-    """give: passes a key's event to ImGui, (key, code, action, modifiers) as GLFW reports it.
-    write: passes a character, which keeps its place between them.
+    """A queue of keyboard events that waits for frames.
+
+    give: passes a key's event to ImGui, (key, code, action, modifiers) as GLFW reports it.
+    write: passes a character, in order with the keys.
     """
 
     def __init__(self, give: Callable[..., None], write: Callable[[int], None]) -> None:
         self._give, self._write = give, write
         self._waiting: list[tuple[int, ...]] = []
-        self._changed: set[int] = set()  # keys that were pressed or let go in this frame
-        self._pressed = False  # whether one of them was pressed that is no modifier
+        self._changed: set[int] = set()  # keys that were pressed or released in this frame
+        self._pressed = False  # whether a key other than a modifier was pressed
 
     def begin_frame(self) -> None:
         """Pass on waiting events. Call once a frame, when ImGui has taken the earlier ones."""
@@ -46,7 +48,7 @@ class KeyFrames:
             (self._give if is_key else self._write)(*event)
 
     def _fits(self, key: int, action: int) -> bool:
-        """Return True if a key's change belongs into this frame, and count it."""
+        """Return True if a key's change fits in this frame, and record it."""
         is_modifier = key in MODIFIERS
         if key in self._changed or (is_modifier and self._pressed):
             return False

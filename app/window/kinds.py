@@ -19,8 +19,8 @@ Kind = Literal["tasks", "photograph", "view", "lecture", "cameras", "code", "sce
 
 
 def kind_of(source: str) -> Kind:
-    """Return a source's kind, by its name and its contents. Built-in scenes, scene files and models
-    are scenes, and so is what is nothing else.
+    """Return a source's kind, by its name and its contents. Built-in scenes, scene files, models
+    and all unrecognized sources are scenes.
     """
     if source in SCENE_NAMES:
         return "scene"
@@ -34,13 +34,13 @@ def found_code(source: str) -> str:
 
 
 def _is_tasks(source: str) -> bool:
-    """Return True for a course's tasks: a table [[tasks]]."""
+    """Return True for a course's tasks, which have a table [[tasks]]."""
     lines = _toml(source).splitlines()
     return any(line.replace(b" ", b"").startswith(b"[[tasks]]") for line in lines)
 
 
 def _is_view(source: str) -> bool:
-    """Return True for a view file: a camera without objects."""
+    """Return True for a view file, which has a camera and no objects."""
     text = _toml(source)
     return b"[camera]" in text and b"objects" not in text
 
@@ -50,7 +50,7 @@ def _is_code(source: str) -> bool:
 
 
 def _toml(source: str) -> bytes:
-    """Return the beginning of a TOML file; nothing for other files."""
+    """Return the beginning of a TOML file; empty bytes for other files."""
     if not source.lower().endswith(TOML_ENDING):
         return b""
     try:

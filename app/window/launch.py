@@ -1,4 +1,4 @@
-"""`lucida [SCENE]`: open the scene of the command line in a window, or draw it once."""
+"""Implement `lucida [SCENE]`: open a scene in a window, or draw it once."""
 
 from __future__ import annotations
 
@@ -48,14 +48,14 @@ def run_viewer(
 ) -> int:
     """Open the window on a scene. Return the exit status when it is closed.
 
-    Without a scene, a view, a screenshot and `fresh`, the last session goes on; a given scene or
+    Without a scene, a view, a screenshot and `fresh`, the last session continues; a given scene or
     view becomes the session. screenshot: draw the whole window once, with both images complete,
-    save it there as PNG, and return. Without a display that happens in any case, into lucida.png,
-    or lucida-2.png if that exists, and one line says so. size: the window's (width, height). view:
-    replaces the scene's own. resolution: of both images, None for what fits the window. change:
-    applies the command line's other camera options. code: the absolute path of a Python file, which
-    is run. photograph: the path of a picture, laid over the images. cameras: a set of them to show.
-    Raises LucidaError.
+    save it there as PNG, and return. Without a display the window is always drawn like this, into
+    lucida.png, or lucida-2.png if that exists, and a line is printed. size: the window's (width,
+    height). view: replaces the scene's own. resolution: both images' resolution; None to fit the
+    window. change: applies the command line's other camera options. code: the absolute path of a
+    Python file to run. photograph: the path of a picture to lay over the images. cameras: a set of
+    cameras to show. Raises LucidaError.
     """
     if cameras is not None:
         scene_source, view = EMPTY_SCENE, view or cameras.view(0)
@@ -88,8 +88,8 @@ def run_viewer(
 def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | None]:
     """Return the platform, and the file of the picture that is drawn instead of opening a window.
 
-    It is the screenshot's file, or, without a display, lucida.png, or lucida-2.png if that exists.
-    what: is drawn, in words. Raises LucidaError.
+    It is the screenshot's file; without a display, lucida.png, or lucida-2.png if that exists.
+    what: a description of the picture. Raises LucidaError.
     """
     platform = start_platform(want_display=screenshot is None)
     if platform.has_display or screenshot is not None:
@@ -103,9 +103,9 @@ def start_drawing(screenshot: Path | None, what: str) -> tuple[Platform, Path | 
 def draw_figure(
     scene: Scene, view: SceneView, choice: FigureChoice, ending: str, marked: Pixel | None
 ) -> bytes:
-    """Return the file of a figure, of a window without a display.
+    """Return the file of a figure that a window without a display shows.
 
-    ending: of the file's name. marked: a pixel. Raises LucidaError.
+    ending: the file name's ending. marked: the pixel to mark. Raises LucidaError.
     """
     width, height = choice.size
     state = AppState.for_scene(scene, view)

@@ -1,6 +1,6 @@
-"""`lucida lecture`: the window with a lecture in it, and pictures of all of its steps.
+"""Implement `lucida lecture`: show a lecture in the window, or draw pictures of all its steps.
 
-Owns both ways of giving a lecture. Knows nothing of how steps are drawn (lecture/view.py).
+lecture/view.py draws the steps.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from lucida.app.web.lecture.page import Still
 
 THEMED = {"stepper", "costs", "probe", "mistakes", "poses"}  # views in the theme's colours
-WORLD_TYPE = 1.5  # the type's size in stills of the world against a hall's: phones show a third
+WORLD_TYPE = 1.5  # type size in stills of the world, relative to a hall's: phones show a third
 QUIET_FRAMES = 4  # the layout needs two frames; afterwards nothing may change
 
 
@@ -45,9 +45,9 @@ def run_lecture(
 ) -> int:
     """Open the window with a lecture. Return the exit status when it is closed.
 
-    path: the lecture's file, read again when it is saved. log: keeps what is answered. at: the step
-    and its build, from 0, to begin at. Without a display, draw that once, into lucida.png, or
-    lucida-2.png if that exists, and say so in one line. Raises LucidaError.
+    path: the lecture's file, read again when it is saved. log: records the answers. at: the first
+    step and build to show, from 0. Without a display, draw that build once, into lucida.png, or
+    lucida-2.png if that exists, and print a line. Raises LucidaError.
     """
     platform, picture = start_drawing(None, "the step")
     pictured = picture is not None
@@ -92,7 +92,7 @@ def export_lecture(
     try:
         _draw_builds(lecture, path, size, save, progress)
     except LucidaError:
-        if is_new:  # nothing stays of a full disk's first picture, the folder neither
+        if is_new:  # if the disk is full, remove the folder too
             with contextlib.suppress(OSError):
                 folder.rmdir()
         raise
@@ -100,7 +100,7 @@ def export_lecture(
 
 
 def _names(lecture: Lecture) -> list[str]:
-    """Return the names of all builds' pictures, such as 07.png, or 07.2.png of several builds."""
+    """Return the names of all builds' pictures: 07.png, or 07.2.png in a step of several builds."""
     digits = max(2, len(str(len(lecture.steps))))
     names = []
     for one in lecture.builds:
@@ -117,8 +117,8 @@ def lecture_stills(
 ) -> list[list[Still]]:
     """Return pictures of the views in each build.
 
-    They are without tools, and in the light theme, for prints; views in the theme's colours also in
-    the dark one. The outside view's type is larger than in the window. path, size: as in
+    They have no tools and the light theme, for prints. Views in the theme's colours are also drawn
+    in the dark theme. The outside view's type is larger than in the window. path, size: as in
     export_lecture(). Needs no display. Raises LucidaError.
     """
     from lucida.app.web.lecture.page import Still
@@ -156,22 +156,22 @@ def _draw_builds(
 ) -> None:
     """Draw all builds in a window without a display, and take each once nothing changes any more.
 
-    take: gets the build's place among all. for_print: without tools, in the light theme, and builds
-    with a view of THEMED in the dark one, too. Raises LucidaError.
+    take: gets the build's index among all builds. for_print: draw no tools, and use the light
+    theme; builds with a view of THEMED use the dark theme, too. Raises LucidaError.
     """
     platform = start_platform(want_display=False)
     state = first_state(lecture)
     if for_print:
         state = _for_still(state, lecture.builds[0], "light")
     run = WindowRun(platform, state, size, take_picture=True)
-    run.take_picture = False  # not one picture at the end: one a build
+    run.take_picture = False  # each build is a picture, not only the last
     window = run.window
     window.for_print = for_print
     window.lecture.give(lecture, path)
     place, quiet, began_s, count = 0, 0, time.monotonic(), len(lecture.builds)
 
     def drawn(target: Target) -> None:
-        """Take each build, and go on to the next."""
+        """Take each build, and continue with the next."""
         nonlocal place, quiet, began_s
         if place == count:
             return

@@ -1,7 +1,7 @@
-"""The open window: one frame after another.
+"""The open window, which runs frame after frame.
 
-The window owns the views, the renderers, the threads and the files. Views get the state through
-ui/host.py's Host, and ask for a new one, which edits.py keeps. viewer.py makes the window.
+The window owns the views, the renderers, the threads and the files. Views read the state through
+ui/host.py's Host, and request a new one, which edits.py keeps. viewer.py creates the window.
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ from .taking import take_opened
 
 
 class MainWindow(Edits):
-    """Everything behind the window; the Host of its views. Methods are called in its thread, in
-    its context.
+    """The model of the window, and the Host of its views. Call methods on its thread, with its
+    context current.
 
     smooth: keep the display's rate while tracing; not needed for a picture. keeper: saves the
-    session. folder: of the user's settings. None keeps neither.
+    session; None saves none. folder: the user's settings folder; None keeps no settings.
     """
 
     def __init__(
@@ -60,7 +60,7 @@ class MainWindow(Edits):
     ) -> None:
         super().__init__(state)
         self.fonts = theme.Fonts()
-        self.news = threading.Event()  # set when a thread has something for the coming frame
+        self.news = threading.Event()  # set when a thread has a result for the next frame
         Background.wake_window = self._wake
         self.files = Files(self._wake, folder)
         self.renderers = Renderers(self._wake, smooth)
@@ -81,7 +81,7 @@ class MainWindow(Edits):
         self.saving = SceneSaving(self.files, self._quit)
         self._closes = False
 
-    # What actions and views ask for.
+    # Requests of actions and views.
 
     def view(self, kind: type[T]) -> T:
         return next(view for view in self.views.values() if isinstance(view, kind))
@@ -102,13 +102,13 @@ class MainWindow(Edits):
         return views and self.renderers.settled(self.state) and not moving
 
     def check(self) -> None:
-        """Raise the error that keeps the images or a view from being complete."""
+        """Raise the error that keeps the images or a view incomplete."""
         for failure in (self.renderers.failure, *self.shell.stage.failed.errors.values()):
             if failure is not None:
                 raise failure
 
     def end_layout(self) -> None:
-        """Note whether the frame that has been laid out is a picture. Call once a frame."""
+        """Record whether the frame's layout is final. Call once a frame."""
         self.is_rearranging = self.shell.stage.place() or self.lecture.is_entering
 
     @property
@@ -121,7 +121,7 @@ class MainWindow(Edits):
 
     @property
     def on_stage(self) -> bool:
-        """True while a lecture is given in presentation mode: pictures and text alone."""
+        """True while a lecture is in presentation mode, which shows only pictures and text."""
         return self.lecture.is_given and self.state.preferences.presentation
 
     def hover(self, view: str, pixel: Pixel) -> None:
@@ -148,7 +148,7 @@ class MainWindow(Edits):
         self.motions.focus_object(self, self._over or self.views[RASTER])
 
     def undo(self) -> None:
-        """Go back by a step. An entry that is not legal is the last step."""
+        """Undo the last step. An invalid entry counts as the last step."""
         pending = [view for view in self.views.values() if view.has_pending]
         if pending:
             for view in pending:
@@ -178,7 +178,7 @@ class MainWindow(Edits):
         self.view(YourCode).open(self, path)
 
     def retry(self) -> None:
-        """Retry what a renderer has failed at."""
+        """Retry rendering after a renderer has failed."""
         self.renderers.retry()
         self.animate()
 
@@ -191,7 +191,7 @@ class MainWindow(Edits):
         hello_imgui.get_runner_params().app_shall_exit = True
 
     def _follow_closing(self) -> None:
-        """Handle the window's own button to close: ask first if something would be lost."""
+        """Handle the window's close button: ask first if something would be lost."""
         params = hello_imgui.get_runner_params()
         if params.app_shall_exit and not self._closes and self.moves:
             if self.saving.closes(self.state):
@@ -212,7 +212,7 @@ class MainWindow(Edits):
     # HelloImGui's callbacks.
 
     def begin(self, context: moderngl.Context) -> None:
-        """Begin, once, when the window's context is there, and current."""
+        """Prepare the views. Called once, when the window's context exists and is current."""
         self.renderers.begin(context)
         self.shell.documents.begin(context)
         for view in self.views.values():
@@ -224,7 +224,7 @@ class MainWindow(Edits):
         menu_bar(self, self.history, self.shell.stage)
 
     def _bars(self) -> None:
-        """Show both bars, and none on the stage."""
+        """Show both bars, or none on the stage."""
         shown = hello_imgui.get_runner_params().imgui_window_params
         shown.show_menu_bar = shown.show_status_bar = not self.on_stage
         if self.on_stage and self.lecture.shows_controls:
@@ -256,7 +256,7 @@ class MainWindow(Edits):
         if self.lecture.arrangements != arrangements:
             begun, stage = self.lecture.take_begun(), self.shell.stage
             stage.give_keyboard(LECTURE if begun else stage.keyboard)
-        typing = self.box is not None and self.box.focused  # its digits are no bookmarks
+        typing = self.box is not None and self.box.focused  # its digits are not bookmarks
         if not typing:
             run_shortcuts(self)
         if self.box is not None and not self.box.draw():
@@ -302,7 +302,7 @@ class MainWindow(Edits):
             show_differing(self)
 
     def end(self) -> None:
-        """End, once, before the context is destroyed."""
+        """Release everything. Called once, before the context is destroyed."""
         self.end_movement()
         self.shell.end(self, keeps_edits=not self.saving.discards)
         for view in self.views.values():
@@ -317,7 +317,7 @@ class MainWindow(Edits):
             view.cancel()
 
     def _wake(self) -> None:
-        """Ask for a frame, from any thread."""
+        """Request a frame, from any thread."""
         self.news.set()
         hello_imgui.request_refresh()
 

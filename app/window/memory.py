@@ -1,7 +1,7 @@
-"""The memory of a process with a window: what was freed goes back to the system.
+"""Return the freed memory of a process with a window to the system.
 
-Images of many sizes leave holes in glibc's heaps, hundreds of megabytes of them, which it keeps.
-Other C libraries are left alone.
+Images of many sizes leave hundreds of megabytes of holes in glibc's heaps, which it keeps. With
+other C libraries, nothing is done.
 """
 
 from __future__ import annotations
@@ -19,15 +19,20 @@ _M_ARENA_MAX = -8  # in glibc's malloc.h
 
 
 class FreedMemory:
-    """Create it before there are threads: glibc makes a heap for each one, up to eight a core."""
+    """A trimmer of freed memory. Create it before there are threads, because glibc makes a heap for
+    each thread, up to eight per core.
+    """
 
     def __init__(self) -> None:
         self._returns_s = math.inf
         _glibc("mallopt", _M_ARENA_MAX, HEAPS)
 
     def follow(self, rests: bool) -> None:
-        """Call once a frame. rests: nothing is moved or traced. Return what was freed once the
-        window has rested for a moment, in a thread: that takes some milliseconds."""
+        """Return freed memory to the system once the window has rested for a moment. Call once a
+        frame. A thread does the work, which takes some milliseconds.
+
+        rests: True if nothing is moving or being traced.
+        """
         now_s = time.monotonic()
         if not rests:
             self._returns_s = now_s + RESTS_S

@@ -1,7 +1,7 @@
-"""Alt alone, or F10: into the menu bar, and back to where the keyboard was.
+"""Alt alone, or F10, which moves the keyboard to the menu bar and back.
 
-ImGui's own Alt leads to the menus of the window that has the keyboard. The menu bar is a window of
-its own, which nothing leads to.
+ImGui's own Alt leads to the menus of the focused window. The menu bar is a window of its own, which
+no key of ImGui's reaches.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ OTHERS = [key for key in Key if Key.tab <= key < Key.reserved_for_mod_ctrl and k
 
 
 class MenuKeys:
-    """in_menus: the keyboard is in the bar or in a menu that was opened from it."""
+    """The keys of the menu bar. in_menus: True if the keyboard is in the bar or in a menu."""
 
     def __init__(self) -> None:
         self.in_menus = False
-        self._is_alone = False  # nothing but Alt was pressed since it is held
-        self._was_open = False  # whether a menu was open in the frame before
-        self._came_from_menu = False  # whether that closed one
+        self._is_alone = False  # nothing else was pressed while Alt was held
+        self._was_open = False  # whether a menu was open in the previous frame
+        self._came_from_menu = False  # whether an arrow key closed one
         self._walking = 0  # frames in which a menu may close because of an arrow key
         self._before: imgui.internal.Window | None = None
 
@@ -49,13 +49,13 @@ class MenuKeys:
         self._was_open = is_open
 
     def _has_chosen(self, stays: bool) -> bool:
-        """Return True if a menu has closed because an entry was chosen."""
+        """Return True if a menu has closed because an entry was selected."""
         return self._was_open and not (stays or self._walking)
 
     def _alt_alone(self) -> bool:
-        """Return True if Alt was let go, and nothing else was done while it was held."""
+        """Return True if Alt was released, and nothing else was pressed while it was held."""
         if imgui.is_key_down(ALT):
-            imgui.internal.set_key_owner(ALT, imgui.get_id(BAR))  # ImGui does nothing then
+            imgui.internal.set_key_owner(ALT, imgui.get_id(BAR))  # keep ImGui from using it
             other = any(imgui.is_key_down(key) for key in OTHERS)
             self._is_alone = not other and (self._is_alone or imgui.is_key_pressed(ALT, False))
             return False
@@ -73,7 +73,7 @@ class MenuKeys:
 
     def _leave(self) -> None:
         self.in_menus = False
-        imgui.set_window_focus(None)  # if there was none before
+        imgui.set_window_focus(None)  # if no window had the focus
         if self._before is not None:
             imgui.internal.focus_window(self._before)
         imgui.set_nav_cursor_visible(True)

@@ -1,6 +1,4 @@
-"""The menu bar: the table of actions, and what no table holds: scenes, recent files, views,
-the last steps.
-"""
+"""The menu bar: the table's actions, and lists of scenes, recent files, views and last steps."""
 
 from __future__ import annotations
 
@@ -22,7 +20,7 @@ from lucida.renderer.system.errors import one_line
 from .action_table import ACTIONS, MENUS
 
 HISTORY_STEPS = 15
-ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, in parts of its size
+ARROW = (-0.5, -0.25), (0.5, -0.25), (0, 0.4)  # corners, as fractions of its size
 
 
 def menu_bar(window: Host, history: History, stage: Stage) -> None:
@@ -41,8 +39,8 @@ def menu_bar(window: Host, history: History, stage: Stage) -> None:
 
 
 def menu_button(window: Host, history: History, stage: Stage) -> None:
-    """Draw a button with all menus into the lower right corner of a lecture's text, in line with
-    the foot, where it covers nothing.
+    """Draw a button with all menus in the lower right corner of a lecture's text, in line with its
+    footer, where it covers nothing.
     """
     column = stage.rects.get(LECTURE)
     if column is None:
@@ -76,7 +74,7 @@ def _menus(menus: Sequence[str], window: Host, history: History, stage: Stage) -
 
 
 def _actions(menu: str, window: Host, history: History) -> None:
-    """Draw the actions of a menu; those of a submenu where the first of them is."""
+    """Draw the actions of a menu. A submenu is at the place of its first action."""
     drawn: set[str] = set()
     for action in ACTIONS:
         if action.menu == menu:
@@ -146,7 +144,7 @@ def _short(text: str, most: int = 40) -> str:
 
 
 def _history(window: Host, history: History) -> None:
-    """Draw the last steps, the newest on top; a click goes back, or forward, to after a step."""
+    """Draw the last steps, the newest on top; a click undoes or redoes up to that step."""
     if not imgui.begin_menu("History", bool(history.past or history.future)):
         return
     states = [*history.past, history.present, *history.future]

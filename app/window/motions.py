@@ -1,4 +1,4 @@
-"""The movements of the window itself: a camera's transition, and a movement between two states."""
+"""The window's animations: a camera's transition, and a movement between two states."""
 
 from __future__ import annotations
 
@@ -37,22 +37,20 @@ class Motions:
         self._edits.playing.end()
 
     def travel(self, host: Host, state: AppState) -> None:
-        """Do what Host.travel() says."""
+        """Implement Host.travel()."""
         edits, now = self._edits, host.state
         ends = host.view(OutsideView).ends(host, state)
         shown = self.transition.begin(now, state, host.focus, host.renderers.size, ends)
         if shown is state:
             host.change(state)
         elif ends is None and state.options != now.options:
-            # The camera alone passes: the rest is there at once, in the same step.
+            # Only the camera moves gradually; the rest changes at once, in the same step.
             there = replace(now, options=state.options)
             edits.history = edits.history.change(there, self.transition.gesture)
         host.animate()
 
     def focus_object(self, host: Host, view: Instrument) -> None:
-        """Frame the object under the mouse, which is over a view, or all of the scene if there is
-        none.
-        """
+        """Frame the object under the mouse in a view, or the whole scene if there is none."""
         camera, number = view.own_camera(host), view.object_under(host)
         if camera is None:
             return
@@ -61,15 +59,15 @@ class Motions:
             points = object_corners(host.state.scene.objects[number])
         try:
             camera = framed(camera, points, host.focus.bounds)
-        except LucidaError:  # too large for numbers
+        except LucidaError:  # it is too large to frame
             return
         host.travel(view.with_own_camera(host.state, camera))
 
     def frame(self, host: Host, active: bool) -> None:
-        """Move everything on by a frame. A press of the mouse ends a movement; on an item, a
-        transition too.
+        """Advance all animations by a frame. A press of the mouse ends a movement; a press on an
+        item also ends a transition.
 
-        active: an item is held.
+        active: True while an item is held.
         """
         edits, pressed = self._edits, any(imgui.is_mouse_clicked(button) for button in range(3))
         if edits.playing.under_way:

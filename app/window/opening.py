@@ -1,6 +1,6 @@
 """Read and prepare what a user opens, drops or names: scenes, views, lectures, sets of cameras.
 
-Nothing here waits for a window: it runs on the threads that load.
+This module does not wait for a window: it runs on the threads that load.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ Use = Literal["open", "newer", "add"]
 class OpenedScene:
     """A scene, or a model as one.
 
-    prepared: for the rasterizer, so that no frame has to prepare it; None if that fails, which
-    drawing reports. agreed: the files outside its folder that a scene which came by itself may
-    read; None if the user named it.
-    use: "open" it in place of the present one; "newer": as a version of the present one, if that is
-    still a version of `replaces`; "add" its model to the present one.
+    prepared: its data for the rasterizer, so that no frame has to prepare it; None if that fails,
+    which drawing reports. agreed: the files outside its folder that the scene may read if the user
+    did not name it; None if the user did.
+    use: "open" replaces the present scene; "newer" replaces it if it is still a version of
+    `replaces`; "add" adds the model to it.
     """
 
     scene: Scene
@@ -53,7 +53,7 @@ class OpenedScene:
 
 @dataclass(frozen=True)
 class OpenedView:
-    """A view. said: what a camera of another format was taken for."""
+    """A view. said: a message on how a camera of another format was read."""
 
     view: View
     said: str = ""
@@ -117,12 +117,12 @@ def open_sources(
     agreed: frozenset[Path] = frozenset(),
     use: Use = "open",
 ) -> Opened:
-    """Load the first thing of each kind among sources. A file with one camera is a view, whatever
-    its format.
+    """Load the first thing of each kind among sources. A file with one camera is a view, in any
+    format.
 
-    dropped: scenes must not name files outside their folder, except those that are agreed to;
-    lectures never may. Raises LucidaError if there is only one source and it cannot be read, and
-    OutsideError in any case.
+    dropped: scenes must not name files outside their folder, except for `agreed`; lectures must
+    never do so. Raises LucidaError if there is only one source and it cannot be read, and
+    OutsideError for any number of sources.
     """
     found: dict[type, Thing] = {}
     good: list[str] = []

@@ -1,8 +1,8 @@
-"""The platform of the window: a display, or none; and OpenGL inside it.
+"""The platform of the window: a display or none, and OpenGL on it.
 
-Chooses GLFW's platform, checks that OpenGL works there, and makes moderngl's context in the window.
-The one place where systems differ: X11 (also XWayland: the bundle's GLFW has no Wayland of its
-own), the null platform, macOS and Windows.
+This module selects GLFW's platform, checks that OpenGL works there, and creates moderngl's context
+in the window. Only this module distinguishes X11 (also XWayland, because the bundle's GLFW has no
+Wayland support), the null platform, macOS and Windows.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ from .keys import KeyFrames
 REQUIRED = (3, 3)
 DEFAULT_SIZE = (1280, 720)
 _LOCKED = int(imgui.ImFontFlags_.lock_baked_sizes)
-LONGEST_PLACING_S = 0.25  # that is waited for a window manager to place the window
+LONGEST_PLACING_S = 0.25  # wait for a window manager to place the window
 
 
 @dataclass(frozen=True)
 class Platform:
-    """has_display: False for the null platform. reason: why there is no display; one line."""
+    """GLFW's platform. has_display: False for the null platform. reason: why, in one line."""
 
     has_display: bool
     reason: str = ""
@@ -45,9 +45,9 @@ class Platform:
 def start_platform(want_display: bool = True) -> Platform:
     """Start GLFW on a display, or on the null platform (with EGL) if there is none.
 
-    want_display: False for the null platform, if that works here: pictures then have any size, and
-    no window is seen. Raises LucidaError if there is no OpenGL 3.3: one line with the packages to
-    install.
+    want_display: False for the null platform, if that works here: pictures can then have any size,
+    and no window is visible. Raises LucidaError if there is no OpenGL 3.3, with one line that names
+    the packages to install.
     """
     if want_display:
         platform = _with_display()
@@ -78,8 +78,8 @@ def create_context() -> moderngl.Context:
 
 
 def flush_opengl() -> None:
-    """Send waiting commands to the GPU. A swap does that on a display. The null platform has none,
-    and would draw nothing until somebody asks for the result.
+    """Send waiting commands to the GPU. A swap does that on a display. The null platform has no
+    swap, and would draw nothing until the result is read.
     """
     address = glfw.get_proc_address("glFlush")
     if address:
@@ -87,18 +87,18 @@ def flush_opengl() -> None:
 
 
 def lock_letters(locked: bool = True) -> None:
-    """Keep ImGui from making letters of a new size, or let it again."""
+    """Keep ImGui from rasterizing letters of a new size, or allow it again."""
     for font in imgui.get_io().fonts.fonts:
         flags = font.flags | _LOCKED if locked else font.flags & ~_LOCKED
         font.flags = flags
 
 
 def begin_letters() -> None:
-    """Correct the framebuffer's scale once a frame has begun, after lock_letters() before it.
+    """Correct the framebuffer's scale when a frame has begun. Call lock_letters() before the frame.
 
     ImGui's backend divides the framebuffer's size by the window's, which X11 reports one after the
     other. If the window is resized to 1 x 1 in between, letters become a thousand times as large,
-    and ImGui ends the program: "Out of texture memory". Only on macOS is a unit not one pixel.
+    and ImGui ends the program: "Out of texture memory". Only on macOS can the scale differ from 1.
     """
     if glfw.get_platform() != glfw.PLATFORM_COCOA:
         one = ImVec2(1, 1)
@@ -115,14 +115,14 @@ def set_title(text: str) -> None:
 
 
 def keep_open() -> None:
-    """Keep the window open whose context is current, and whose button to close was pressed."""
+    """Keep the window with the current context open after its close button was pressed."""
     window = glfw.get_current_context()
     if window:
         glfw.set_window_should_close(window, False)
 
 
 def take_keys() -> KeyFrames:
-    """Let the current window's keyboard events wait for their frames."""
+    """Queue the current window's keyboard events, frame by frame."""
     window = glfw.get_current_context()
     keys = KeyFrames(give_key, lambda character: imgui.get_io().add_input_character(character))
     if window:
@@ -139,13 +139,13 @@ def on_drop(dropped: Callable[[list[str]], None]) -> None:
         def call(_window: Any, count: int, paths: Any) -> None:
             dropped([os.fsdecode(paths[number]) for number in range(count)])
 
-        # glfw.set_drop_callback() takes all names for UTF-8, and fails at others.
+        # glfw.set_drop_callback() assumes that all names are UTF-8, and fails for others.
         binding: Any = glfw
         _on_drop[:] = [binding._GLFWdropfun(call)]  # noqa: SLF001, no public way
         binding._glfw.glfwSetDropCallback(window, _on_drop[0])  # noqa: SLF001
 
 
-_on_drop: list[Any] = []  # what is called lives as long as the window
+_on_drop: list[Any] = []  # keeps the callback alive as long as the window
 
 
 def default_size(platform: Platform) -> tuple[int, int]:
@@ -169,17 +169,16 @@ def set_size(size: tuple[int, int]) -> None:
 
 
 def show_window(draw: Callable[[], None]) -> None:
-    """Show the current window, hidden so far, in front, and wait a moment until a window manager
-    has placed it.
+    """Show the current, hidden window in front, and wait briefly for a window manager to place it.
 
-    draw: called then to put the picture into it, because earlier drawing is lost.
+    draw: called afterwards to draw the picture again, because earlier drawing is lost.
     """
     window = glfw.get_current_context()
     if not window:
         return
     placed = threading.Event()
 
-    def refresh(_window: Any) -> None:  # stays: None is no callback for glfw
+    def refresh(_window: Any) -> None:  # stays, because glfw cannot remove a callback
         if not placed.is_set():
             placed.set()
             draw()
@@ -237,7 +236,7 @@ def _monitor_of(place: tuple[int, int, int, int]) -> Any:
 
 
 class _Loader:
-    """Finds the functions of a context that someone else made, for moderngl."""
+    """A loader that finds the functions of GLFW's context, for moderngl."""
 
     def load_opengl_function(self, name: str) -> int:
         return glfw.get_proc_address(name) or 0  # type: ignore[return-value]
@@ -253,7 +252,7 @@ class _Loader:
 
 
 def why_no_display() -> str:
-    """Return why there can be no display, in one line; empty if there may be one."""
+    """Return the reason why there can be no display, in one line; empty if there may be one."""
     if not sys.platform.startswith("linux") or os.environ.get("DISPLAY"):
         return ""
     if os.environ.get("WAYLAND_DISPLAY"):
@@ -279,7 +278,7 @@ def _start_null() -> None:
 
 
 def _check_opengl(platform: Platform) -> None:
-    """Create and destroy a context of its own: a failure of the window's would end the process."""
+    """Create and destroy a test context: a failure of the window's would end the process."""
     remedy = (
         "install a graphics driver with OpenGL 3.3"
         if platform.has_display
@@ -293,7 +292,7 @@ def _check_opengl(platform: Platform) -> None:
         glfw.window_hint(glfw.OPENGL_FORWARD_COMPAT, True)
         window = glfw.create_window(16, 16, "lucida", None, None)
         glfw.default_window_hints()
-        # X11's class, by which a desktop finds the icon; otherwise it would be the title.
+        # A desktop finds the icon by X11's class, which would otherwise be the title.
         glfw.window_hint_string(glfw.X11_CLASS_NAME, "Lucida")
         glfw.window_hint_string(glfw.X11_INSTANCE_NAME, "lucida")
         if not platform.has_display:

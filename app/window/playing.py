@@ -1,4 +1,4 @@
-"""A movement between two states while the window shows it."""
+"""A movement between two states that the window is showing."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from lucida.app.state.app_state import AppState
 
 
 class Playing:
-    """The movement that is under way, if there is one. shown: its state in this frame, or None."""
+    """The current movement, if there is one. shown: its state in this frame, or None."""
 
     def __init__(self) -> None:
         self.shown: AppState | None = None
@@ -22,7 +22,7 @@ class Playing:
         return self._movement is not None
 
     def begin(self, movement: Movement, takes_s: float, loop: bool) -> None:
-        """Begin a movement that takes some seconds. loop: again and again."""
+        """Begin a movement that takes some seconds. loop: True to repeat it."""
         self._movement, self.shown = movement, movement.at(0.0)
         self._began_s, self._takes_s, self._loops = time.monotonic(), takes_s, loop
 
@@ -33,7 +33,7 @@ class Playing:
         return would_end
 
     def frame(self, is_pressed: bool) -> None:
-        """Show the movement's state in this frame. is_pressed: the mouse, which ends it."""
+        """Show the movement's state in this frame. is_pressed: True to end it, by the mouse."""
         if self._movement is None:
             return
         part = (time.monotonic() - self._began_s) / self._takes_s

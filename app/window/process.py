@@ -1,4 +1,4 @@
-"""The process that a command runs in: its standard streams, and Ctrl-C. Light to import."""
+"""The process of a command: its standard streams, and Ctrl-C. This module is light to import."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ def open_streams() -> None:
         if getattr(sys, name) is None:
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
         stream = getattr(sys, name)
-        if isinstance(stream, io.TextIOWrapper):  # a terminal need not have every sign
+        if isinstance(stream, io.TextIOWrapper):  # a terminal may lack some characters
             stream.reconfigure(errors="backslashreplace")
 
 
 def end_by_interrupt(at_once: bool) -> None:
-    """Let Ctrl-C end the process at once, without a word, or raise KeyboardInterrupt as usual.
+    """Let Ctrl-C end the process at once, without a message, or raise KeyboardInterrupt as usual.
 
-    Changes nothing if Ctrl-C is ignored or handled otherwise.
+    Nothing changes if Ctrl-C is ignored or handled otherwise.
     """
     if threading.current_thread() is not threading.main_thread():
         return

@@ -1,7 +1,7 @@
-"""The division of the room among a layout's dock spaces.
+"""The division of the window among a layout's dock spaces.
 
-Keeps the spaces' shares while the window is resized; ImGui saves their sizes. layout.py decides
-where the spaces are and what is in them.
+This module keeps the spaces' shares while the window is resized; ImGui saves their sizes. layout.py
+decides where the spaces are and which views they contain.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ LEAST_ROOM_PX = 200.0  # for both images; in less, ImGui's smallest sizes decide
 
 @dataclass
 class _Share:
-    """The share of a space in the room that it was split from.
+    """The share of a space in the parent space that it was split from.
 
-    room: the size of that room when the share was last set.
+    room: the parent's size when the share was last set.
     size: the space's size at that time, which ImGui rounds. Shares from rounded sizes would drift.
-    settling: the frames until the new sizes are there.
-    again: the frames in which they are set again.
+    settling: the number of frames until ImGui has the new sizes.
+    again: the number of frames in which to set the sizes again.
     """
 
     part: float = 0.5
@@ -41,7 +41,9 @@ class _Share:
         other: imgui.internal.DockNode,
         x: bool,
     ) -> None:
-        """other: the node next to it."""
+        """Set the node's size from its share, or its share from its size. other: the node next to
+        it.
+        """
         size, room = (node.size.x, parent.size.x) if x else (node.size.y, parent.size.y)
         room -= imgui.get_style().docking_separator_size
         kept = (node.size_ref.x, other.size_ref.x) if x else (node.size_ref.y, other.size_ref.y)
@@ -62,10 +64,10 @@ class _Share:
 
 
 class Proportion:
-    """Keeps the spaces' shares when the window is resized, and the camera's panel as wide as its
-    numbers.
+    """A layout manager that keeps the spaces' shares when the window is resized, and the camera's
+    panel as wide as its numbers.
 
-    ImGui alone would resize only one of the spaces. The user's own division stays, also when the
+    ImGui alone would resize only one of the spaces. The user's own division is kept even when the
     views are rearranged.
     """
 
@@ -79,7 +81,7 @@ class Proportion:
         arrange().
         """
         if min(layout.window_px()) < LEAST_ROOM_PX:
-            self._layout = ""  # ImGui divides a window without room; all is set again after that
+            self._layout = ""  # ImGui divides a tiny window; set all again afterwards
             return
         shown = layout.current()
         anew = arranged != self._arranged or shown.name != self._layout
@@ -97,7 +99,7 @@ class Proportion:
                 continue
             other = _child(layout.node_of(whole), parent)
             if other is None or node.is_empty() or other.is_empty():
-                continue  # the one with views has all of the room
+                continue  # the one with views fills the parent
             if tuple(node.size) == tuple(parent.size):  # nothing is next to it
                 continue
             share = self._shares.setdefault((shown.name, space), _Share())
@@ -107,7 +109,7 @@ class Proportion:
 
 
 def _keep_camera() -> None:
-    """Keep the camera's panel as wide as its numbers, at any size of type."""
+    """Keep the camera's panel as wide as its numbers, at any type size."""
     node = _side(layout.node_of(layout.CAMERA_SPACE), imgui.internal.Axis.x)
     parent = node.parent_node if node is not None else None
     if node is None or parent is None or not (parent.size.x > 0 and node.size.y > 0):
@@ -129,9 +131,7 @@ def _child(
 def _side(
     node: imgui.internal.DockNode | None, axis: imgui.internal.Axis
 ) -> imgui.internal.DockNode | None:
-    """Return the node, or the one around it, that is next to (x), or above or below (y),
-    another.
-    """
+    """Return the node, or the one around it, that has a neighbour along `axis`."""
     while node is not None:
         parent = node.parent_node
         if parent is None or parent.split_axis == axis:

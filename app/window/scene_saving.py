@@ -1,7 +1,6 @@
-"""The scene in the window and its file: saving it, what is not saved yet, and closing.
+"""Save the window's scene in its file, and ask before unsaved changes are lost.
 
-Owns what is asked before something is lost. Writing is renderer/editing/documents.py's, in
-the background.
+renderer/editing/documents.py writes the file, in the background.
 """
 
 from __future__ import annotations
@@ -47,16 +46,16 @@ class _SceneWritten:
 
 
 class SceneSaving:
-    """For one window. end: ends it."""
+    """The saving of one window's scene. end: closes the window."""
 
     def __init__(self, files: Files, end: Then) -> None:
         self._files, self.end = files, end
         self._writing: Background[Scene] = Background("lucida-save-scene", every=True)
         self._written: deque[_SceneWritten] = deque()  # in the order of their outcomes
-        self._agreed: Scene | None = None  # may be lost
+        self._agreed: Scene | None = None  # its changes may be lost
 
     def save(self, state: AppState, then: Then | None = None) -> None:
-        """Into the scene's own file; asks where there is none. then: done once it is saved."""
+        """Save the scene in its own file, or ask for one. then: called once it is saved."""
         path = file_of(state.scene)
         if path is None:
             self.save_as(state, then)
@@ -66,7 +65,7 @@ class SceneSaving:
             self._files.say(one_line(f"No unsaved changes in {path.name}."))
 
     def save_as(self, state: AppState, then: Then | None = None) -> None:
-        """Ask for a place, and save the scene there with the present camera."""
+        """Ask for a path, and save the scene there with the present camera."""
         name = str(suggested_file(state.scene))
         self._files.ask_name(
             "Save the scene",
@@ -77,8 +76,8 @@ class SceneSaving:
 
     @property
     def busy(self) -> bool:
-        """True while something is being written. Until it is known, its file looks as if another
-        program had changed it.
+        """True while something is being written. Until its result is polled, the file looks as if
+        another program had changed it.
         """
         return bool(self._written)
 
@@ -104,7 +103,7 @@ class SceneSaving:
     def closes(self, state: AppState) -> bool:
         """Return True if the window may close now; else ask what to do with the scene."""
         scene = state.scene
-        if self._written:  # a moment later, unless that fails
+        if self._written:  # close once that has succeeded
             self._written[-1] = replace(self._written[-1], then=self.end)
             return False
         if scene is self._agreed or not is_marked(scene, state.step is not None):
@@ -113,18 +112,21 @@ class SceneSaving:
         return False
 
     def leave(self, state: AppState, then: Then) -> None:
-        """Run what replaces the scene. Ask first if changes would be lost."""
+        """Call `then`, which replaces the scene. Ask first if changes would be lost."""
         if is_marked(state.scene, state.step is not None):
             self._ask(state, then, LEAVE, then)
         else:
             then()
 
     def close(self) -> None:
-        """Once, at the end: what is being written is written."""
+        """Wait until everything is written. Call once, at the end."""
         self._writing.close(5.0)
 
     def _ask(self, state: AppState, saved: Then, otherwise: str, lose: Then) -> None:
-        """saved: done after saving. otherwise: the words for not saving, and lose does that."""
+        """Ask whether to save the scene.
+
+        saved: called after saving. otherwise: the words for not saving, which calls `lose`.
+        """
         name = one_line(state.scene.name) or "The scene"
         text = f"{name} was changed, and not saved."
         self._files.ask(text, {SAVE: lambda: self.save(state, saved), otherwise: lose})
@@ -152,7 +154,7 @@ class SceneSaving:
 
 
 def is_marked(scene: Scene, is_a_steps: bool = False) -> bool:
-    """Return True if the scene has unsaved changes. Quick: called in each frame.
+    """Return True if the scene has unsaved changes. This is quick enough for each frame.
 
     The scene of a lecture's step is never marked, since nobody saves it.
     """

@@ -1,7 +1,7 @@
-"""The places of sessions: one file for each open window, locked, and saved in the background.
+"""The files of sessions: each open window locks one, and saves it in the background.
 
-A window takes the first place that no other one holds. The first window's session is therefore the
-one that comes back, whatever a second window did. A lock ends with its process.
+A window takes the first file that no other window holds. The first window's session is therefore
+the one that is restored, regardless of a second window. A lock ends with its process.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ LAST_S = 5.0  # at the end, for what is being saved
 
 
 class SessionFile:
-    """A session file that this process has for itself."""
+    """A session file that this process has locked."""
 
     def __init__(self, path: Path, lock: int) -> None:
         self.path = path
@@ -37,9 +37,7 @@ class SessionFile:
         self._saving = threading.Lock()
 
     def load(self) -> tuple[Session | None, str]:
-        """Return the session that was left here, and a message for the user. An unusable one is
-        kept aside.
-        """
+        """Return the saved session, and a message for the user. Move an unusable file aside."""
         if not self.path.exists():
             return None, ""
         try:
@@ -52,8 +50,8 @@ class SessionFile:
             return None, f"The last session could not be restored. {error}.{where}"
 
     def save(self, data: bytes) -> None:
-        """Replace the file, unless the place was released. Raise LucidaError; the old file then
-        stays.
+        """Replace the file, unless the place was released. Raises LucidaError, in which case the
+        old file is kept.
         """
         with self._saving:
             if self._lock >= 0:
@@ -79,9 +77,9 @@ class SessionFile:
 
 
 def take_place(folder: Path | None = None) -> SessionFile | None:
-    """Return the first place that no other window has; None if sessions cannot be kept.
+    """Return the first place that no other window has; None if sessions cannot be saved.
 
-    folder: of the files; None for the user's settings folder, created if necessary.
+    folder: the files' folder; None for the user's settings folder, created if necessary.
     """
     try:
         folder = folder or settings_folder()
@@ -122,9 +120,10 @@ def _locked(path: Path) -> int | None:
 
 
 class Keeper:
-    """Saves a session some seconds after the last change, on its own thread, and at the end.
+    """A saver of sessions: it saves some seconds after the last change, on its own thread, and at
+    the end.
 
-    wake: called on that thread when a save has failed. A failure is reported once: message.
+    wake: called on that thread when a save has failed. message: the failure, reported once.
     """
 
     def __init__(self, place: SessionFile, wake: Callable[[], None]) -> None:

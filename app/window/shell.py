@@ -1,6 +1,6 @@
 """The parts around the views: documents, dialogs, toasts, the session.
 
-It decides what Escape means.
+The shell also handles Escape.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ REDRAWN = 8  # frames after a change of the bars or of the views' places
 class Shell:
     """The shell of one window. keeper: saves the session; None if none is kept.
 
-    folder: of the settings; None for none.
+    folder: the settings folder; None for none.
     """
 
     def __init__(
@@ -53,20 +53,20 @@ class Shell:
         self.files = files
         self._keeper = keeper
         self._kept: AppState | None = None
-        self._asked = False  # whether something was typed into, in the last frame
+        self._asked = False  # whether a field had the keyboard in the last frame
         self._popup = False  # whether a popup was open at the end of the last frame
-        self._answered = ""  # the failure whose message was closed, in words
+        self._answered = ""  # the text of the failure whose message was closed
         self._division: tuple[bool, dict[str, Rect]] = False, {}  # of the last frame
-        self._dividing = 0  # frames that are still requested for it
+        self._dividing = 0  # number of frames to request for it
 
-    # What actions ask for.
+    # Requests of actions.
 
     def open_document(self, name: str) -> None:
         self.documents.open(name)
 
     def escape(self, window: Host) -> None:
-        """Handle Escape: close what lies on top, end what takes long, leave presentation, clear
-        the selection or the mark; one of these at a time.
+        """Handle Escape: close the topmost box, cancel long work, leave presentation mode, or clear
+        the selection or the mark.
         """
         if self.files.dialog.is_open:
             self.files.dialog.cancel()
@@ -103,8 +103,8 @@ class Shell:
             self.toasts.add(said)
 
     def draw_until_divided(self, window: Host) -> None:
-        """Request frames until bars and views have their places: each takes effect a frame later,
-        and the idle window of a slow machine would show what is in between for seconds.
+        """Request frames until bars and views have their places. Each change takes effect a frame
+        later, and an idle window on a slow machine would show intermediate layouts for seconds.
         """
         division = window.has_tools, dict(self.stage.rects)
         self._dividing = REDRAWN if division != self._division else max(self._dividing - 1, 0)
@@ -113,14 +113,15 @@ class Shell:
             window.animate()
 
     def draw(self, window: Host, typing: bool = False, in_menus: bool = False) -> None:
-        """Draw what lies over the views. typing: a box has the keyboard, and handles Escape, as the
-        menus do."""
-        # A popup or a menu is ImGui's to close, as long as nobody else asks for the key.
+        """Draw the boxes over the views. typing: True if a box has the keyboard, and handles Escape
+        as the menus do.
+        """
+        # ImGui closes a popup or a menu itself, as long as nobody else claims the key.
         if not (self._popup or typing or in_menus) and imgui.shortcut(
             int(imgui.Key.escape), imgui.InputFlags_.route_global
         ):
             self.escape(window)
-        if not self.toasts.texts:  # they are read first, at the same place
+        if not self.toasts.texts:  # they are at the same place, and come first
             self.hints.draw(window, self.stage.rects)
         self.documents.draw()
         self.files.dialog.draw()
@@ -133,24 +134,24 @@ class Shell:
         self._hide_cursor(typing or self.files.dialog.is_open)
 
     def _hide_cursor(self, asks: bool) -> None:
-        """Hide the keyboard's cursor after the field that was typed into is gone.
+        """Hide the keyboard's cursor once the field that was typed into is gone.
 
-        It, and the tooltip that it brings, would be on something that nobody went to. It comes back
-        with Tab and the arrow keys.
+        The cursor and its tooltip would be on an item that the user did not select. Tab and the
+        arrow keys show it again.
         """
         if self._asked and not asks:
             imgui.set_nav_cursor_visible(False)
         self._asked = asks
 
     def note_popups(self) -> None:
-        """Note whether a popup is open. Call at the end of a frame: ImGui closes a popup by Escape
-        before the next one begins.
+        """Record whether a popup is open. Call at the end of a frame, because ImGui closes a popup
+        by Escape before the next frame begins.
         """
         any_popup = imgui.PopupFlags_.any_popup_id | imgui.PopupFlags_.any_popup_level
         self._popup = bool(imgui.is_popup_open("", int(any_popup)))
 
     def end(self, window: Host, keeps_edits: bool = True) -> None:
-        """Save the session, once, at the end. keeps_edits: with the scene's unsaved changes."""
+        """Save the session. Call once, at the end. keeps_edits: include unsaved changes."""
         if self._keeper is not None:
             session = self._session(window)
             if not keeps_edits:
@@ -158,7 +159,7 @@ class Shell:
             self._keeper.close(session)
 
     def _session(self, window: Host) -> Session:
-        """Return what to keep."""
+        """Return the session to save."""
         state = window.present
         lecture = window.view(LectureView).kept(state)
         return session_of(state, self.stage.arrangement(), lecture)
@@ -199,7 +200,7 @@ class Shell:
         """Return a failure that the user has not answered yet."""
         failure = renderers.failure
         if failure is None:
-            self._answered = ""  # the next one is reported, even if it is the same again
+            self._answered = ""  # report the next failure, even if it is the same
         # A failure in each frame is a new exception each time: compare the words.
         return failure if failure is not None and describe(failure) != self._answered else None
 

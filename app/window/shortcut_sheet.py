@@ -1,7 +1,7 @@
-"""The sheet of mouse and keys: every key that does something, by menu.
+"""The sheet of mouse and keys, which lists every shortcut by menu.
 
-Made from the table of app/window/action_table.py, and from what the instruments say of their mouse
-and keys.
+It is made from the table of app/window/action_table.py and from the instruments' rows for mouse and
+keys.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def sections() -> list[Part]:
 
 
 def _folded(rows: list[Row]) -> list[Row]:
-    """Return the rows; those that differ in a digit alone (bookmarks 1 to 9) become one."""
+    """Return the rows. Merge those that differ only in a digit (bookmarks 1 to 9)."""
     alike: dict[str, list[Row]] = {}
     for row in rows:
         alike.setdefault(re.sub(r"\d", "#", "|".join(row)), []).append(row)
@@ -57,5 +57,5 @@ def keys_document() -> str:
 
 
 def _plain(text: str) -> str:
-    """Return a text in which no sign means anything in Markdown."""
+    """Escape the characters that have a meaning in Markdown."""
     return re.sub(r"([\\`*_\[\]|<])", r"\\\1", text)

@@ -1,7 +1,8 @@
-"""Ctrl-C, and the system's wish that the program should end, while the window is open.
+"""Handle Ctrl-C and the system's termination signals while the window is open.
 
-A signal's exception must not go through the window's C++ code, where it would leave settings
-unsaved: signals are only noted, the window closes as if by its button, and then they count.
+A signal's exception must not pass through the window's C++ code, where it would leave settings
+unsaved. Signals are therefore recorded, the window closes as if by its button, and then they take
+effect.
 """
 
 from __future__ import annotations
@@ -17,9 +18,9 @@ NAMES = ("SIGINT", "SIGTERM", "SIGHUP")  # the last one: the terminal was closed
 
 @contextlib.contextmanager
 def ended_by_signals(end: Callable[[], None]) -> Iterator[None]:
-    """Inside, a signal calls `end`; afterwards it does what it would have done.
+    """Call `end` for a signal inside the block; let the signal take effect afterwards.
 
-    Outside the main thread, and for signals that are ignored, nothing changes.
+    Nothing changes outside the main thread, and for signals that are ignored.
     """
     if threading.current_thread() is not threading.main_thread():
         yield

@@ -1,4 +1,4 @@
-"""The window's beginning: a scene of the command line's, a lecture, the last session, or the
+"""The window's initial content: a scene from the command line, a lecture, the last session, or the
 default scene.
 """
 
@@ -32,13 +32,13 @@ UNKEPT = "This session will not be kept: the settings folder cannot be written t
 
 @dataclass(frozen=True)
 class Start:
-    """The window's beginning.
+    """The window's initial content.
 
-    session: the one to go on with, None for none. keeper: saves it. message: for the user. opened:
-    a scene for the recent files. lecture: the one to go on with. fresh: begin as on the first day,
-    without the layout of an earlier window. left: the last session's lecture. code: the absolute
-    path of a student's Python file, which is run. poses: a set of cameras to show. unsaved: a scene
-    file with the changes that the last session has not saved.
+    session: the session to continue, or None. keeper: saves it. message: a message for the user.
+    opened: a scene for the recent files. lecture: the lecture to continue. fresh: True to ignore
+    the layout of earlier windows. left: the last session's lecture. code: the absolute path of a
+    student's Python file to run. poses: a set of cameras to show. unsaved: a scene file with the
+    last session's unsaved changes.
     """
 
     state: AppState
@@ -70,10 +70,10 @@ def begin_scene(
 
 
 def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
-    """Go on with the last session, or begin an empty one. fresh: without the last one.
+    """Continue the last session, or begin an empty one. fresh: True to ignore the last one.
 
-    folder: where sessions are; None for the user's settings folder. A scene that is not there any
-    more, or that cannot be read, is reported; the rest of the session stays.
+    folder: the folder of sessions; None for the user's settings folder. A scene that is missing or
+    cannot be read is reported; the rest of the session is kept.
     """
     if fresh:
         return replace(_in_place(begin_scene(), folder)[1], fresh=True)
@@ -92,10 +92,10 @@ def begin_session(fresh: bool = False, folder: Path | None = None) -> Start:
 
 
 def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start:
-    """Make the scene that the command line named the session from now on.
+    """Replace the session by one with the scene that the command line named.
 
-    The user's own settings of the last session stay, outside of presentation mode; the rest ends.
-    fresh, folder: as in begin_session().
+    The user's own settings of the last session are kept, except for presentation mode; the rest is
+    dropped. fresh, folder: as in begin_session().
     """
     options, start = _in_place(start, folder)
     state = replace(start.state, options=own(Options() if fresh else options))
@@ -106,20 +106,20 @@ def kept(start: Start, fresh: bool = False, folder: Path | None = None) -> Start
 def begin_lecture(
     lecture: Lecture, at: tuple[int, int] = (0, 0), folder: Path | None = None
 ) -> Start:
-    """Begin a lecture at a build of a step, which is kept as the session.
+    """Begin a lecture at a build of a step, and save it as the session.
 
-    The user's own settings of the last session stay; the rest ends, as when another scene is
-    opened.
+    The user's own settings of the last session are kept; the rest is dropped, as when another scene
+    is opened.
     """
     options, start = _in_place(Start(first_state(lecture)), folder)
     return replace(start, state=first_state(lecture, at, options))
 
 
 def _in_place(start: Start, folder: Path | None) -> tuple[Options, Start]:
-    """Let a start take the last session's place.
+    """Replace the last session by a start.
 
-    Return the last session's options, and the start with a message for the user. Changes that were
-    never saved are not lost.
+    Return the last session's options, and the start with a message for the user. Unsaved changes
+    are rescued.
     """
     place = take_place(folder)
     if place is None:
@@ -151,7 +151,7 @@ def first_state(
 ) -> AppState:
     """Return the state that a lecture begins with, for the last row.
 
-    at: the step and its build. options: the user's.
+    at: the step and its build. options: the user's options.
     """
     step = lecture.builds[lecture.place(*at)]
     seen = replace(
@@ -181,7 +181,7 @@ def _lecture(kept: KeptLecture | None) -> tuple[LectureSession | None, str]:
 
 
 def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
-    """Go on with the session's scene, or with the default one if that cannot be read."""
+    """Continue with the session's scene, or with the default scene if that cannot be read."""
     step = lecture if session.lecture is not None and session.lecture.in_step else None
     if step is not None:
         return Start(replace(session.state(step.step.scene), step=step.place), session)
@@ -189,6 +189,6 @@ def _gone_on(session: Session, lecture: LectureSession | None) -> Start:
         return Start(session.state(load_scene(session.source)), session)
     except LucidaError as error:
         message = f"The last session's scene could not be opened. {error}"
-    default = load_scene(BUILTIN_SCENES[0])  # of which the session's camera may see nothing
+    default = load_scene(BUILTIN_SCENES[0])  # the session's camera may see nothing of it
     state = replace(session.state(default), view=default.view)
     return Start(state, session, message=message)

@@ -1,6 +1,6 @@
 """The status line: both renderers' times, the agreement, the pixel under the mouse.
 
-Owns its words. Numbers are set in a fixed width, so that nothing moves while they change.
+Numbers have a fixed width, so that nothing moves while they change.
 """
 
 from __future__ import annotations
@@ -15,19 +15,19 @@ from lucida.app.ui.lettering import fitting_words
 from lucida.renderer.camera.pixels import Indexing, Pixel
 from lucida.renderer.system.errors import describe
 
-DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with what is free beside it
+DIVIDER_PX = 25.0  # at 100 %: a line between two texts, with its margins
 
 
 @dataclass(frozen=True)
 class Status:
     """The contents of the line.
 
-    size: of the full image. factor: the coarseness of the ray image, 1 for full, 0 for none;
-    raster_factor: likewise. agreement: a text, empty while unknown; agrees: whether it is good
-    news, None if it is none; differing: whether there are pixels to show. pixel: under the mouse,
-    or marked; indexing: how it is counted. loading: what is being opened, empty for nothing. brief:
-    without times and sizes, for an audience. awaited: an unknown agreement will be known; otherwise
-    nothing is said of it.
+    size: the full image's size. factor: the coarseness of the ray image, 1 for full, 0 for none.
+    raster_factor: the same for the raster image. agreement: a text, empty while unknown. agrees:
+    True if the images agree, None if unknown. differing: True if there are differing pixels to
+    show. pixel: the pixel under the mouse, or the marked one. indexing: its numbering. loading: the
+    name of the source being opened, or "". brief: True to omit times and sizes, for an audience.
+    awaited: True if an unknown agreement will be known; otherwise it is omitted.
     """
 
     raster_s: float
@@ -47,12 +47,12 @@ class Status:
 
 
 def told(verdict: Verdict | None, failure: Exception | None) -> str:
-    """Return the line's text on both images; empty while nothing is known."""
+    """Return the line's text on both images; empty while it is unknown."""
     return verdict.text if verdict else describe(failure) if failure else ""
 
 
 def is_good_news(verdict: Verdict | None, failure: Exception | None) -> bool | None:
-    """Return whether both images agree; None if nothing was compared."""
+    """Return True if both images agree; None if nothing was compared."""
     if verdict is None:
         return None if failure is None else False
     return verdict.agrees
@@ -79,7 +79,7 @@ def status_line(status: Status, fonts: theme.Fonts) -> bool:
     for index, (text, color) in enumerate(parts[left:]):
         if index:
             _divider()
-        shown = fitting_words(text, room)  # of a single one that is wider than the window
+        shown = fitting_words(text, room)  # a single text may be wider than the window
         if text == agreement and status.differing:
             pressed = _link(shown, color)
             continue
@@ -96,7 +96,7 @@ def status_line(status: Status, fonts: theme.Fonts) -> bool:
 
 
 def time_texts(status: Status) -> list[str]:
-    """Return the time of each image that a view wanted."""
+    """Return the time of each image that a view requested."""
     coarseness = f" 1/{status.raster_factor}" if status.raster_factor > 1 else "    "
     texts = []
     if status.raster_s > 0:
@@ -107,7 +107,7 @@ def time_texts(status: Status) -> list[str]:
 
 
 def agreement_text(status: Status) -> str:
-    """Return whether the images agree, in words; empty if nobody looks at both.
+    """Return the agreement of the images, in words; empty if no view shows both.
 
     The words name the two images, since other views show pairs that differ on purpose.
     """
@@ -128,10 +128,10 @@ def right_texts(status: Status) -> list[str]:
 def fitting(
     lefts: list[float], rights: list[float], room: float, divider: float = DIVIDER_PX
 ) -> tuple[int, int]:
-    """Return which of the left texts is the first, and which of the right ones has room next to it.
+    """Return the index of the first left text that fits, and of the right text that fits with it.
 
-    lefts, rights, divider: widths, the right ones from the widest to 0. The times, on the left,
-    give way to whether the images agree, which stays; then the right text becomes shorter.
+    lefts, rights, divider: widths; those of the right texts decrease to 0. If space is short, the
+    times at the left are omitted first, never the agreement; then the right text is shortened.
     """
     first = 0
     while first < len(lefts) - 1 and sum(lefts[first:]) + divider * (len(lefts) - first) > room:
@@ -147,8 +147,9 @@ def milliseconds(time_s: float) -> str:
 
 
 def ray_text(status: Status) -> str:
-    """Return the ray image's time, size and refinement, in constant width; no time before there is
-    an image."""
+    """Return the ray image's time, size and refinement, in constant width. The time is blank before
+    there is an image.
+    """
     width, height = status.size
     took = milliseconds(status.ray_s) if status.factor else f"{'...':>8}"
     detail = {0: "", 1: "full"}.get(status.factor, f"1/{status.factor}")
@@ -160,7 +161,7 @@ def _width(text: str) -> float:
 
 
 def _link(text: str, color: ImVec4) -> bool:
-    """Draw underlined text that can be pressed, as wide as the text alone."""
+    """Draw underlined text that can be pressed, without padding."""
     imgui.push_style_var(
         imgui.StyleVar_.frame_padding, ImVec2(0, imgui.get_style().frame_padding.y)
     )

@@ -1,6 +1,6 @@
-"""Take what was opened into the window: a scene, a view, a lecture, a file of code, photographs.
+"""Show what was opened in the window: a scene, a view, a lecture, a file of code, photographs.
 
-Decides what replaces what. opening.py reads.
+This module decides what is replaced; opening.py reads the files.
 """
 
 from __future__ import annotations
@@ -39,18 +39,18 @@ ADD, OPEN = "Add it to the scene", "Open it instead"
 
 
 class Taker(Host, Protocol):
-    """The window as it takes what was opened."""
+    """The window, as seen by this module."""
 
     files: Files
 
     def open_code(self, path: str) -> None: ...
     def leave_scene(self, then: Callable[[], None]) -> None:
-        """Run what replaces the scene; ask first if something would be lost."""
+        """Call `then`, which replaces the scene; ask first if something would be lost."""
 
 
 def take_opened(window: Taker) -> None:
-    """Take all that was opened since the last frame, each thing in its place. A view is the
-    scene's, or the set's.
+    """Show everything that was opened since the last frame. A view applies to the scene or the set
+    that was opened with it.
     """
     opened = window.files.poll()
     if opened is None:
@@ -87,7 +87,7 @@ def _take_poses(window: Taker, poses: PoseSet, alone: bool) -> None:
 def _take_scene(window: Taker, opened: OpenedScene, view: View | None) -> None:
     state, textures, scene = window.state, window.renderers.textures, opened.scene
     if opened.replaces is not None and not are_versions(opened.replaces, state.scene):
-        return  # another one is shown meanwhile
+        return  # the window shows another one by now
     if opened.prepared is not None and textures is not None:
         textures.rasterizer.prepare(scene, opened.prepared)
     if opened.use == "newer":
@@ -110,14 +110,14 @@ def _take_scene(window: Taker, opened: OpenedScene, view: View | None) -> None:
 
 
 def _with_other_scene(state: AppState, scene: Scene, view: View | None) -> AppState:
-    """Return the state with another scene, all of which the outside view sees."""
+    """Return the state with another scene, which is entirely visible in the outside view."""
     state = state.with_scene(scene, view)
     return state.with_options(replace(state.options.outside, camera=None))
 
 
 def take_newer(window: Taker, old: Scene, new: Scene) -> None:
-    """Show a newer version of the scene, as a step of its own: with its own camera, unless the user
-    has moved it.
+    """Show a newer version of the scene, as a separate undo step. Use its own camera unless the
+    user has moved the camera.
     """
     untouched = window.state.view == old.view
     state = replace(window.state, scene=new)
@@ -126,7 +126,7 @@ def take_newer(window: Taker, old: Scene, new: Scene) -> None:
 
 
 def _is_for_the_scene(state: AppState, opened: OpenedScene) -> bool:
-    """Return True if the scene could be added: only models, dropped on a scene of the user's."""
+    """Return True if the opened scene could be added: a model dropped on the user's own scene."""
     origin = opened.scene.origin
     if origin is None or opened.agreed is None or state.step is not None:
         return False
@@ -158,6 +158,6 @@ def with_model(state: AppState, model: Scene) -> AppState:
     """
     assert model.origin is not None
     read = ModelFile(model.objects, model.views, model.notes)
-    with read_by(lambda _: read):  # it is not read again
+    with read_by(lambda _: read):  # do not read it again
         scene, items = add(state.scene, model_table(state.scene, model.origin.source))
     return with_scene(state, scene, items)

@@ -1,6 +1,6 @@
 """One run of the window: HelloImGui's parameters, settings, screenshot.
 
-Knows nothing of what happens in a frame (main_window.py), nor of what is opened (launch.py).
+main_window.py runs the frames, and launch.py decides what is opened.
 """
 
 from __future__ import annotations
@@ -51,10 +51,10 @@ from .signals import ended_by_signals
 from .start import Start
 
 SCREENSHOT_LIMIT_S = 300.0  # the first image of an installation compiles the tracer
-PICTURE_WAIT_S = 0.25  # at most, for what a thread gives: the ray image, or the comparison
+PICTURE_WAIT_S = 0.25  # at most, for a thread's result: the ray image, or the comparison
 NULL_FPS = 60.0
-IDLE_FPS = 0.5  # ends notifications, saves the session; anything else that changes asks for frames
-WAITING_FPS = 2.0  # while the ray image is on its way: how far it is, is told
+IDLE_FPS = 0.5  # to end notifications and save the session; any other change requests frames
+WAITING_FPS = 2.0  # while the ray image is being traced, to show its progress
 UNSAVED = "The last session left unsaved changes of its scene. They are kept in"
 RESTORE = "Open that file"
 DOUBLE_CLICK_S = 0.5
@@ -64,9 +64,9 @@ SWITCH_INTERVAL_S = 0.001  # a busy Python thread (a compilation) delays a frame
 class WindowRun:
     """One run of the window. params may be changed before run(), as tests do.
 
-    size: (width, height); None for that of the last run, or the default.
-    take_picture: leave once both images are complete, and use no settings of the user's.
-    remember: keep the layout, in the user's settings. start: the session; None for none.
+    size: (width, height); None for the last run's, or the default.
+    take_picture: True to end once both images are complete, and to ignore the user's settings.
+    remember: True to save the layout in the user's settings. start: the session; None for none.
     """
 
     def __init__(
@@ -91,7 +91,7 @@ class WindowRun:
         self._keys: KeyFrames | None = None
         self._focusing = Focusing()
         self._focus_frame = FocusFrame()
-        self.on_drawn: Callable[[Target], None] | None = None  # each frame that is shown, drawn
+        self.on_drawn: Callable[[Target], None] | None = None  # called for each visible frame
         self.take_picture = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
@@ -114,7 +114,7 @@ class WindowRun:
         try:
             with ended_by_signals(self._end):
                 immapp.run(self.params)
-        except Exception as error:  # often ImGui's complaint about the window that was left
+        except Exception as error:  # often ImGui's error about an unfinished window
             self._error = self._error or error
         finally:
             sys.setswitchinterval(interval)
@@ -123,10 +123,10 @@ class WindowRun:
         return np.ascontiguousarray(hello_imgui.final_app_window_screenshot()[..., :3])
 
     def to_the_end(self, picture: Path | None, tell: bool = False) -> int:
-        """Run, save the picture that was drawn instead of opening a window, and return the exit
+        """Run, save the picture if one was drawn instead of opening a window, and return the exit
         status.
 
-        tell: print where.
+        tell: True to print the picture's path.
         """
         pixels = self.run()
         if picture is not None:
@@ -179,7 +179,7 @@ class WindowRun:
         params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
         params.fps_idling.fps_idle = 0.0 if self.take_picture else IDLE_FPS
         params.fps_idling.enable_idling = not self.take_picture
-        if not (self._platform.has_display or self.take_picture):  # nothing else paces the frames
+        if not (self._platform.has_display or self.take_picture):  # nothing else paces frames
             params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
         params.docking_params, *params.alternative_docking_layouts = layout.docking(
@@ -206,7 +206,7 @@ class WindowRun:
         return self.guarded(lambda: self.window.draw_view(view))
 
     def guarded(self, function: Callable[[], Any]) -> Callable[[], None]:
-        """Return a function for C++. Exceptions must not pass through that: the run raises them."""
+        """Wrap a function for C++, which no exception may pass through; the run raises it later."""
 
         def call() -> None:
             if self._error is not None and function != self.window.end:
@@ -225,7 +225,7 @@ class WindowRun:
             self._keys = take_keys()
         else:
             set_size(self._size)
-        # Also a size that was asked for is the next run's.
+        # A requested size is also the next run's.
         self.params.app_window_params.restore_previous_geometry = not self.params.ini_disable
         self._canvas = WindowCanvas(context)
         self.window.begin(context)
@@ -245,7 +245,7 @@ class WindowRun:
         if self._keys is not None:
             self._keys.begin_frame()
         if self._canvas is not None:
-            io = imgui.get_io()  # not the window: that may be of another size by now
+            io = imgui.get_io()  # the window itself may have another size by now
             size, scale = io.display_size, io.display_framebuffer_scale
             pixels = max(1, round(size.x * scale.x)), max(1, round(size.y * scale.y))
             self.window.end_layout()
@@ -264,7 +264,7 @@ class WindowRun:
         canvas.show(self._platform.has_display)
 
     def _show_window(self) -> None:
-        """Show the window once there is a picture: it would be black until then."""
+        """Show the window once there is a picture, because it would be black until then."""
         window = self.params.app_window_params
         if window.hidden and self._canvas is not None and self._canvas.shown is not None:
             window.hidden = False
@@ -272,20 +272,20 @@ class WindowRun:
             show_window(lambda: canvas.show(in_window=True))
 
     def _tell_compiling(self) -> None:
-        """Print once what the window waits for, if nobody looks at it."""
+        """Print once what an invisible window is waiting for."""
         if compile_note.note() != self._told:
             self._told = compile_note.note()
             print(f"lucida: {self._told}", file=sys.stderr)
 
     def _after_frame(self) -> None:
-        if self._ended:  # before the first frame: HelloImGui has forgotten it since
+        if self._ended:  # before the first frame, after which HelloImGui resets it
             self.params.app_shall_exit = True
         self._show_window()
         if not self._platform.has_display:
             flush_opengl()
         self._memory.follow(self.window.settled)
         if not self.take_picture:
-            # A saved program is to run at once.
+            # A saved program must run at once.
             busy = self.window.renderers.busy or self.window.view(YourCode).seen
             self.params.fps_idling.fps_idle = WAITING_FPS if busy else IDLE_FPS
             return
@@ -302,19 +302,19 @@ class WindowRun:
                 "try a smaller model or --size",
             )
         elif self.window.renderers.busy and not (self._canvas is None or self._canvas.keeps):
-            # The images have their size. Frames that nobody sees would take time from them.
+            # The images have their final size. Further invisible frames would slow them down.
             self.window.news.wait(PICTURE_WAIT_S)
             self.window.news.clear()
 
 
 def _configure() -> None:
-    """HelloImGui's configuration; and everything can be reached with the keyboard."""
+    """Configure ImGui, so that the keyboard can reach everything."""
     hello_imgui.imgui_default_settings.setup_default_imgui_config()
     io = imgui.get_io()
     io.config_flags |= int(imgui.ConfigFlags_.nav_enable_keyboard)
     # ImGui takes one change of a mouse button a frame: leave time for slow frames.
     io.mouse_double_click_time = DOUBLE_CLICK_S
-    io.mouse_single_click_delay = 2 * io.mouse_double_click_time  # ImGui wants it to be longer
+    io.mouse_single_click_delay = 2 * io.mouse_double_click_time  # ImGui requires it to be longer
 
 
 def save_png(path: Path, pixels: np.ndarray) -> None:
@@ -334,7 +334,7 @@ def user_folder() -> Path | None:
 def _settings(params: hello_imgui.RunnerParams, remember: bool, fresh: bool) -> None:
     """Keep the layout in the user's settings folder, never in the working directory.
 
-    fresh: set the file that is there aside.
+    fresh: True to move an existing file aside.
     """
     path = settings_file(fresh) if remember else None
     if path is not None and not is_unicode(str(path)):

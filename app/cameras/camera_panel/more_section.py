@@ -121,7 +121,7 @@ def _dolly(state: AppState, around: PanelContext) -> AppState:
         return state.with_camera(
             dollied(camera, around.focus.center, camera.distance * value / depth)
         )
-    except (LucidaError, OverflowError):  # as far as numbers go
+    except (LucidaError, OverflowError):  # at the limits of the number range
         return state
 
 

@@ -1,6 +1,6 @@
 """The camera panel's numbers of the picture: distance, field of view, viewport.
 
-Takes a state and a draft and returns new ones, including the coupling between the numbers.
+Its functions take a state and a draft and return new ones, in which coupled numbers agree.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ The vertical angle between the viewport's lower and upper edge, seen from the ey
 It and d are one number: the viewport stays, d changes."""
 FIT = """\
 On: the viewport is widened or heightened to the image's shape.
-Off: it is used as it stands, and the picture may look stretched."""
+Off: it is used unchanged, and the picture may look stretched."""
 NO_EYE = "none, rays are parallel"
 
 LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
@@ -63,7 +63,7 @@ class PanelContext:
         reset: float | None = None,
         unit: str = "",
     ) -> tuple[bool, float]:
-        """Draw a field. Return (whether it changed, its value). See number_field()."""
+        """Draw a field. Return (True if it changed, its value). See number_field()."""
         mono = self.fonts.mono
         return number_field(name, value, width_px, scale, color, mono, tooltip, wrong, reset, unit)
 
@@ -71,7 +71,7 @@ class PanelContext:
 def projection_numbers(
     state: AppState, draft: Draft, around: PanelContext
 ) -> tuple[AppState, Draft]:
-    """Draw the numbers that are to be shown into the current window."""
+    """Draw the visible numbers into the current window."""
     options = state.options.camera
     if options.shows("d"):
         state, draft = _distance(state, draft.following(state.camera), around)
@@ -136,7 +136,7 @@ def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 
 def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    """Draw the distance as an angle, of the viewport as drawn."""
+    """Draw the distance as an angle: the field of view of the viewport as drawn."""
     width = rows.row("field of view", "", FIELD_OF_VIEW, around.fonts, derived=True)
     if state.camera.is_parallel:
         rows.instead(NO_EYE)

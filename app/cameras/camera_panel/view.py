@@ -1,6 +1,6 @@
 """The camera's panel as a view.
 
-Keeps the draft of invalid numbers. camera_panel/panel.py draws the panel.
+It keeps the draft of invalid numbers. camera_panel/panel.py draws the panel.
 """
 
 from __future__ import annotations

@@ -86,7 +86,7 @@ class LaboratoryView(Instrument):
         painter.paint(self.figure, corner, 1 / scale, corner, far)
 
     def in_both_themes(self) -> tuple[Page, Page]:
-        """Return the input of the last drawing, in the light and in the dark theme of a hall."""
+        """Return the input of the last drawing, in a lecture hall's light and dark themes."""
         assert self.page is not None
         light, dark = (look_of(one) for one in (palettes.PRESENTED_LIGHT, palettes.PRESENTED_DARK))
         return replace(self.page, look=light), replace(self.page, look=dark)

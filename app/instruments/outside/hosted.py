@@ -1,4 +1,4 @@
-"""The outside view's guest: what another instrument does in it, see app/ui/guest.py."""
+"""The outside view's guest, which acts in it for another instrument; see app/ui/guest.py."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .mouse import Scope
 
 
 class Hosted:
-    """view: the name of the view. guest: set by itself; None: there is none."""
+    """The guest of one view. view: the view's name. guest: it sets itself here; None for none."""
 
     def __init__(self, view: str) -> None:
         self._view = view
         self.guest: Guest | None = None
-        self._took_double = False  # whose release is no click
+        self._took_double = False  # a double-click's release is not a click
 
     @property
     def holds(self) -> bool:

@@ -20,8 +20,8 @@ OUTSIDE = "outside of the lens"
 
 
 def lens_pixel(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
-    """Return the way from where a pixel is in the image to where its ray meets the image plane, if
-    it does. A pixel outside of the lens is only named so.
+    """Return the line from a pixel's place in the image to the point where its ray meets the image
+    plane, if it does. A pixel outside the lens gets only a label.
     """
     x, y = camera.image_point(*pixel, size)
     distorted, along, w = image_point(camera, x, y), camera.direction(x, y), np.asarray(camera.w)

@@ -20,10 +20,11 @@ MOST_TICKS = 32  # of a side
 
 
 def pixel_items(camera: Camera, size: Size, origin: PixelOrigin) -> tuple[Item, ...]:
-    """Return the focal length, the principal point, the pixels' coordinates and the
-    corners; nothing of a parallel camera.
+    """Return the focal length, the principal point, the pixels' coordinates and the corners, or
+    nothing for a parallel camera.
 
-    camera: fitted to its image of `size`. origin: where whole numbers are.
+    camera: the camera, fitted to its image of `size`. origin: the point of a pixel that has whole
+    coordinates.
     """
     if camera.is_parallel:
         return ()

@@ -18,7 +18,7 @@ def with_points(poses: PoseSet, number: int, pixels: Bytes) -> Bytes:
     """Return the picture, uint8 (height, width, 3), darkened, with the points on it, the nearest on
     top.
 
-    Takes a fraction of a second for millions of points: call it on a thread.
+    This takes a fraction of a second for millions of points: call it on a thread.
     """
     height, width = pixels.shape[:2]
     out = (DARKER * pixels).astype(np.uint8)

@@ -1,6 +1,6 @@
-"""Translation to Julia of functions that loop over pixels.
+"""Translation of functions that loop over pixels to Julia.
 
-Julia counts from 1; rows and columns that Python counts from 0 then count from 1 or from 0.
+Julia counts from 1. Rows and columns, which Python counts from 0, are counted from 1 or from 0.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from lucida.renderer.camera.pixels import Indexing
 
 INDENT = "    "
-# How tightly operators bind.
+# Precedences: operators with higher numbers bind more tightly.
 COMPARE, SUM, PRODUCT, SIGN, ATOM = range(5)
 OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
     ast.Add: ("+", SUM),
@@ -70,7 +70,7 @@ class _Julia:
         return ast.unparse(node), ATOM
 
     def binary(self, left: ast.expr, op: ast.AST, right: ast.expr) -> tuple[str, int]:
-        """Return two operands with the operator between them; associates to the left."""
+        """Return two operands with the operator between them, which associates to the left."""
         sign, binds = OPERATORS[type(op)]
         return f"{self.text(left, binds)} {sign} {self.text(right, binds + 1)}", binds
 

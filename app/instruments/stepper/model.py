@@ -38,10 +38,10 @@ class Variable(NamedTuple):
 class Moment:
     """The state before a step's line runs.
 
-    line: its number in the source. pixel, ray, box (rows, columns), triangle and corners (its own,
-    in the image): None outside the loop that sets them.
+    line: the line's number in the source. pixel, ray, box (rows, columns), triangle and corners
+    (the triangle's, in the image): None outside the loop that sets them.
     canvas: linear light (height, width, 3), NaN where unset.
-    t: of the closest hit so far of the pixel's ray; infinite for none.
+    t: the ray parameter of the pixel's closest hit so far; infinite if there is none.
     """
 
     step: int
@@ -110,13 +110,13 @@ def _canvas(recording: Recording, step: int, now: dict[str, Any]) -> Floats:
     array: Floats = buffer.empty.copy()
     if count := bisect_right(recording.writes, step):
         rows, columns, values = zip(*buffer.log[:count], strict=True)
-        array[rows, columns] = values  # of several writes to a pixel the last one stays
+        array[rows, columns] = values  # the last of several writes to a pixel stays
     return array
 
 
 def describe(value: Any, first: int = 0) -> str:
     """Return a variable's value in a few characters. first: the number of the first row and column,
-    for those that count them.
+    for variables that count them.
     """
     if isinstance(value, range):
         return f"{value.start + first} to {value.stop - 1 + first}" if value else "none"

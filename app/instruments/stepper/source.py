@@ -12,7 +12,7 @@ from typing import Any
 from lucida.app.ui.explaining import symbols
 from lucida.renderer.camera.pixels import Indexing
 
-# Python that counts pixels from 0, and the same from 1; its arrays count from 0 in any case.
+# Changes from Python that counts pixels from 0 to counting from 1; arrays still count from 0.
 _FROM_ONE = (
     (re.compile(r"\brange\((\w+)\)"), r"range(1, \1 + 1)"),
     (re.compile(r"\b([ij]) \+ 0\.5"), r"\1 - 0.5"),

@@ -57,7 +57,7 @@ class Options(SharedOptions):
         return replace(self, **parts)
 
     def with_parts(self, *parts: Options | OptionPart) -> Options:
-        """Return these options with other parts, each in its place; all of them for `Options`."""
+        """Return these options with other parts, each in its place. `Options` replaces them all."""
         options = self
         for part in parts:
             if isinstance(part, Options):

@@ -19,7 +19,7 @@ class CompareOptions(OptionPart):
 
     gain: the factor of the difference before it is coloured.
     divider: the wipe's place, as a fraction of the image's width.
-    rise: how far the ray image has risen on its side of the wipe, over the raster image.
+    rise: the fraction of its side of the wipe on which the ray image covers the raster image.
     causes: mark differing pixels in the colours of their causes.
     """
 

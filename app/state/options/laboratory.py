@@ -14,12 +14,13 @@ LONGEST = 4.0  # the largest progress of all drawings
 
 @dataclass(frozen=True)
 class LaboratoryOptions(OptionPart):
-    """page: the drawing that is shown.
+    """The options of the image laboratory.
 
-    progress: how far the drawing is, in builds: 0 is its first, 1 its second, 0.5 halfway.
+    page: the selected drawing.
+    progress: the drawing's progress in builds: 0 is its first, 1 its second, 0.5 halfway.
     after_ev: the exposure, in stops, of images that have been stored.
     phase: the moment in the displays' cycles: 0 to 1 in the first, to 2 in the second.
-    point: the one whose light is read, as fractions of the image's width and height.
+    point: the point at which the light is read, as fractions of the image's width and height.
     """
 
     page: Literal[

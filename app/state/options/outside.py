@@ -10,9 +10,9 @@ from lucida.renderer.camera.camera import Camera
 
 Coordinate = Annotated[float, Range(-1e6, 1e6)]
 Point = tuple[Coordinate, Coordinate, Coordinate]
-# Of the key formula as it grows: the pixel, its centre on the viewport, -dw, uu, vv, its ray.
+# Stages of the growing key formula: the pixel, its centre on the viewport, -dw, uu, vv, its ray.
 STAGES = ("pixel", "centre", "w", "u", "v", "ray")
-MOST_GROWN = 7  # a session of an earlier version may say so
+MOST_GROWN = 7  # sessions of earlier versions may have it
 Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 
 
@@ -20,17 +20,17 @@ Rays = Annotated[int, Range(0, 64)]  # rows, or columns, of viewing rays
 class OutsideOptions(OptionPart):
     """The outside view.
 
-    camera: the free camera that looks at the scene and the other camera;
-        None for one that shows both. turned: its degrees around the scene.
+    camera: the free camera that looks at the scene and the other camera; None for one that shows
+        both. turned: its angle around the scene, in degrees.
     bundle: rows and columns of the bundle of viewing rays; (0, 0) for none.
     gizmo: the action of the handles in the view: move the eye, turn the basis, or turn up, from
         which the basis then follows.
     target: a point to draw as **a**, with up as an arrow at the eye, from which a lecture makes a
         basis; None to draw neither.
-    formula: how far the marked pixel's formula has grown, in STAGES; None to hide it.
+    formula: the progress of the marked pixel's formula, in STAGES; None to hide it.
     pixels: show the image plane in pixels, with K's numbers.
 
-    The numbers below are drawings of a lecture that grow: each counts the parts that are complete.
+    The numbers below are for a lecture's growing drawings: each counts the complete parts.
     points: points of the scene whose viewing rays are drawn; points_grown: their rays, then dots
     where these pass the image plane. image_opacity: the opacity of the picture on the image plane.
     half_line: the marked pixel's ray as p, d, the whole line with t = 1, 2, 3, and then without
@@ -38,7 +38,7 @@ class OutsideOptions(OptionPart):
     meetings: all t at which that ray meets objects, then the least t > 0. simple: the parts of the
     simple camera: its eye, its direction, its viewport, the viewport's sides, d. basis_grown: of
     a basis that is made from a target: w, up, u, v. numbers: write numbers in place of the
-    formula's letters. to_parallel: how far the formula has turned from perspective to parallel.
+    formula's letters. to_parallel: the formula's progress from perspective to parallel.
     """
 
     camera: Camera | None = None

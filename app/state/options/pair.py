@@ -16,8 +16,8 @@ class PairOptions(OptionPart):
     """The drawings over both images.
 
     parallels: points of the world, through each of which a line is drawn in the direction `along`.
-    In perspective they meet in its vanishing point. vanishing: draw them; extended: how far,
-    starting from their near ends.
+    In perspective they meet in its vanishing point. vanishing: draw these lines. extended: the
+    drawn fraction of each, from its near end.
     straight_lines: a grid of straight lines around the eye, bent as the lens bends them.
     footprint: an inset of the marked pixel's square, with the samples whose mean is its colour.
     """

@@ -23,7 +23,7 @@ RESOLUTIONS = (
     *((16, 9), (64, 36), (160, 90), (320, 180), (640, 360), (1280, 720), (1920, 1080)),
     *((3840, 2160), (4096, 2160), (4, 3), (16, 16), (64, 64), (256, 256), (512, 512)),
 )
-SAMPLES = (1, 4, 16, 64)  # a pixel
+SAMPLES = (1, 4, 16, 64)  # rays per pixel
 MOST_BOOKMARKS = 9  # a key for each
 MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 
@@ -48,10 +48,10 @@ class ImageOptions(OptionPart):
     pixels, None to fit the whole image into its window; center: the centre of the view then, as a
     fraction of the image's width and height. grid: draw lines between pixels, and their numbers,
     if those are large enough.
-    samples: rays per pixel for the ray image's colour,
-    once the image is complete. dissolved: how far both images have dissolved into flat squares,
-    which finally are 32 in a row. lens_enlargement: texels along a side per pixel, in the pinhole
-    images in which the raster image of a lens is looked up.
+    samples: rays per pixel for the ray image's colour, once the image is complete. dissolved: the
+    progress of both images' dissolution into flat squares, of which finally 32 are in a row.
+    lens_enlargement: texels per side of a pixel in the pinhole images in which the raster image of
+    a lens is looked up.
     """
 
     channel: Channel = "color"
@@ -75,7 +75,7 @@ Theme = Literal["dark", "light"]
 
 @dataclass(frozen=True)
 class Preferences(OptionPart):
-    """The looks of the window. reduced_motion: the camera jumps without a transition."""
+    """The window's appearance. reduced_motion: the camera jumps without a transition."""
 
     theme: Theme = "dark"
     presentation: bool = False
@@ -85,7 +85,7 @@ class Preferences(OptionPart):
 
 @dataclass(frozen=True)
 class Bookmark:
-    """A view to come back to. number: its key."""
+    """A saved view. number: its key."""
 
     number: Annotated[int, Range(1, MOST_BOOKMARKS)]
     view: View
@@ -93,16 +93,16 @@ class Bookmark:
 
 @dataclass(frozen=True)
 class SharedOptions:
-    """The options of no single instrument.
+    """The options that belong to no single instrument.
 
     marked: the pixel that the user has marked, in every view; None for none. marked_size: (width,
     height) of the image that it was set in, so that it keeps its ray in an image of another size;
     None until an image of its size is shown.
 
     shadows, mirrors: effects that only image order has. one_based: pixels are counted from 1, as in
-    the
-    lecture, or from 0, as in arrays. language: of the shown programs. pixel_origin: the place of
-    K's whole numbers, pixels' centres or corners. bookmarks: in the order of their numbers.
+    the lecture, or from 0, as in arrays. language: the language of displayed programs.
+    pixel_origin: the points at which K's pixel coordinates are whole numbers: pixels' centres or
+    corners. bookmarks: the saved views in the order of their numbers.
     """
 
     images: ImageOptions = field(default_factory=ImageOptions)

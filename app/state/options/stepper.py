@@ -18,12 +18,12 @@ class StepperOptions(OptionPart):
 
     picture: what a lecture shows: the two loops in words; ray tracing in three lines, first at
     the marked pixel; the whole program; or its questions: an image, a frame, a ray.
-    parts: how far the picture's runs are, in object order and in image order. A run begins after
+    parts: the progress of the runs, in object order and in image order. A run begins after
     each whole number and is complete at the next. Ray tracing's lines are executed at the marked
     pixel up to 1, 2 and 3, and at the other pixels up to 4. The questions appear up to 1, 2 and 3.
     canvas: (width, height).
-    steps: of the run in object order, and of the one in image order; a step past the end is the
-    last.
+    steps: the step of the run in object order, and of the one in image order; a step past the end
+    is the last.
     """
 
     picture: Literal["loops", "rays", "program", "questions"] = "loops"

@@ -1,6 +1,6 @@
 """Numbers and vectors as people type them: 1/8, -0.125, 1/sqrt(2), (0, 1, -3/4).
 
-Pure. Number fields and exercises accept the same.
+Pure. Number fields and exercises accept the same syntax.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _OPERATIONS: dict[type[ast.operator], Callable[[float, float], float]] = {
 def number(text: str) -> float:
     """Return the value of a number: decimals, fractions, sums, products, brackets, sqrt() and pi.
 
-    Raises LucidaError if it is not one.
+    Raises LucidaError if the text is not a number.
     """
     tidy = text.strip()
     for sign, plain in _PLAIN.items():
@@ -79,12 +79,12 @@ def text_of(value: float) -> str:
 
 
 def vector_text(values: NDArray[np.float64]) -> str:
-    """Return (1/8, 0, -1)."""
+    """Return a vector as text, such as (1/8, 0, -1)."""
     return "(" + ", ".join(text_of(float(value)) for value in values) + ")"
 
 
 def _is_enclosed(text: str) -> bool:
-    """Return True if the last sign closes the first bracket, and nothing closes it before."""
+    """Return True if the last character closes the first bracket, and none closes it earlier."""
     depth = 0
     for at, sign in enumerate(text):
         depth += (sign in "([") - (sign in ")]")

@@ -1,4 +1,4 @@
-"""Line breaks in formulas and code that are wider than their room. Pure."""
+"""Line breaks in formulas and code that are wider than the available space. Pure."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import textwrap
 
 _BREAKS = (" = ", " + ", " - ")
 _OPENING, _CLOSING = "({", ")}"
-CONTINUED = 4  # by how many letters the rest of a line is indented more
+CONTINUED = 4  # extra indentation of a continued line, in letters
 
 
 @functools.lru_cache(maxsize=1024)
@@ -28,7 +28,7 @@ def breakable(formula_text: str) -> tuple[str, ...]:
 
 @functools.lru_cache(maxsize=1024)
 def broken(line: str, letters: int) -> tuple[str, ...]:
-    """Break a line of code into rows of so many letters, between words; the rest is indented."""
+    """Break a line of code between words into rows of `letters`; indent all but the first."""
     if len(line) <= letters:
         return (line,)
     indent = min(len(line) - len(line.lstrip()) + CONTINUED, letters // 2)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 DECIMALS = 4
-FRACTION = 1600  # parts of 1 that have at most six decimals: those of 32 or 160 pixels, say
+FRACTION = 1600  # parts of 1 with at most six decimals, such as those of 32 or 160 pixels
 
 
 @dataclass(frozen=True)
@@ -15,7 +15,7 @@ class Line:
     """One step as LaTeX: in symbols, followed by a pixel's numbers.
 
     key: the step's id, the same for every pixel.
-    name: in words.
+    name: the step in words.
     latex: `u = ...`.
     latex_numbers: `= ... = 0.125`.
     value: the result, as numbers.
@@ -37,7 +37,7 @@ class Slot:
 
 
 def scalar_slot(latex: str, value: float, factor: bool = False) -> Slot:
-    """Return a number for a formula. factor: part of a product, so negative ones get brackets."""
+    """Return a number for a formula. factor: True in a product, to bracket negative numbers."""
     shown = latex_number(value)
     bracketed = factor and (value < 0 or "cdot" in shown)
     return Slot(latex, f"({shown})" if bracketed else shown)
@@ -59,7 +59,7 @@ def formula(
 ) -> Line:
     """Return a line `left = right`.
 
-    right: `<name>` is a slot. result: how the value is written, if not as a number or a tuple.
+    right: in it, `<name>` is a slot. result: the LaTeX of the value; None for results(value).
     """
     values = (value,) if isinstance(value, int | float) else tuple(value)
     result = results(values) if result is None else result
@@ -73,9 +73,9 @@ def formula(
 
 
 def results(values: Iterable[float]) -> str:
-    """Return a computed number, or a tuple.
+    """Return a computed number or tuple as LaTeX.
 
-    It always has four decimals, so that nothing jumps while it changes. Exact numbers are shorter,
+    Numbers have four decimals, so that nothing jumps while they change. Exact numbers are shorter,
     and a pixel's fractions are complete, so that they match calculations by hand.
     """
     values = _rounded(values)
@@ -90,8 +90,9 @@ def bold(name: str) -> str:
 
 
 def number(value: float, fixed: bool = False) -> str:
-    """Return a number with at most four decimals, or six for a fraction; fixed: always four. Very
-    small and large ones are written as 1.23e-05.
+    """Return a number with at most four decimals, or six for a pixel's fraction.
+
+    Very small and large numbers are written as 1.23e-05. fixed: always write four decimals.
     """
     if not math.isfinite(value):
         return {math.inf: "inf", -math.inf: "-inf"}.get(value, "none")
@@ -104,7 +105,7 @@ def number(value: float, fixed: bool = False) -> str:
 
 
 def latex_number(value: float, fixed: bool = False) -> str:
-    r"""Return the same as LaTeX: exponents as powers of ten, infinity as \infty."""
+    r"""Return number() as LaTeX, with exponents as powers of ten and infinity as \infty."""
     text = number(value, fixed)
     if text in ("inf", "-inf"):
         return text.replace("inf", r"\infty")
@@ -123,14 +124,14 @@ def text_tuple(values: Iterable[float], fixed: bool = False) -> str:
 
 
 def _rounded(values: Iterable[float]) -> tuple[float, ...]:
-    """Replace by 0 what is only rounding, relative to the largest value."""
+    """Replace values by 0 if they are only rounding errors relative to the largest value."""
     values = tuple(values)
     least = 1e-12 * max(map(abs, values))
     return tuple(0.0 if abs(value) <= least else value for value in values)
 
 
 def _is_exact(value: float) -> bool:
-    """Return True if four decimals are exact, or six of a fraction that pixels have."""
+    """Return True if four decimals are exact, or six for a pixel's fraction."""
     least = 1e-9 * abs(value)
     fraction = round(value * FRACTION) / FRACTION if math.isfinite(value) else value
     return abs(value - round(value, DECIMALS)) <= least or abs(value - fraction) <= least

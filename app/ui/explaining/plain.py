@@ -1,7 +1,7 @@
-r"""LaTeX as plain text, for where formulas cannot be typeset: \frac{a}{b} as a / b.
+r"""LaTeX as plain text, used if formulas cannot be typeset: \frac{a}{b} becomes a / b.
 
-Bold letters are vec(x), as elsewhere in plain text. It supports only the commands that lectures
-use; unknown ones keep their names without the backslash.
+Bold letters become vec(x), as elsewhere in plain text. Only the commands that lectures use are
+supported; unknown ones keep their names without the backslash.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ SIGNS = {
     "left": "", "right": "", "lfloor": "floor(", "rfloor": ")", "displaystyle": "",
     ",": " ", ";": " ", ":": " ", "!": "", " ": " ", "|": "|", "\\": "; ",
 }  # fmt: skip
-# From the innermost group outwards: the first rule that matches is applied, until none does.
+# Groups are replaced from the innermost outwards: apply the first matching rule until none matches.
 _RULES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"\\frac<><>", lambda found: f"{_bracketed(found[1])} / {_bracketed(found[2])}"),
     (r"\\sqrt<>", r"sqrt(\1)"),
@@ -30,7 +30,7 @@ _RULES: tuple[tuple[str, str | Callable[[re.Match[str]], str]], ...] = (
     (r"<>", r"\1"),
 )
 _GROUPS = tuple((re.compile(rule.replace("<>", r"\{([^{}]*)\}")), text) for rule, text in _RULES)
-_BRACES = {r"\{": "\ue000", r"\}": "\ue001"}  # those that are shown
+_BRACES = {r"\{": "\ue000", r"\}": "\ue001"}  # visible braces
 
 
 def plain_math(latex: str) -> str:
@@ -49,6 +49,6 @@ def plain_math(latex: str) -> str:
 
 
 def _bracketed(text: str) -> str:
-    """Return sums and products in brackets, single terms without."""
+    """Enclose sums and products in brackets; return single terms unchanged."""
     text = text.strip()
     return text if re.fullmatch(r"[\w.²³]*|\|[^|]*\||\([^()]*\)", text) else f"({text})"

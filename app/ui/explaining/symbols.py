@@ -1,10 +1,10 @@
 """The table of symbols: the letter of each quantity of the lecture, and its word in tables of code.
 
-Formulas and shown programs have the letters: u and v on the viewport, W and H, d and e; vectors
-are bold. A shown program says `cam.u` and `cam.d`, because it has neither bold nor italic type: `d`
-is the direction there, and `u` is on the viewport. The checker's tables of mistakes, the stepper's
-loops and the panel's tooltips are written with words; program() and spoken() translate them. Tasks
-of courses whose programs have words keep them (`notation = "code"`).
+Formulas and displayed programs use letters: u and v on the viewport, W and H, d and e. Vectors are
+bold in formulas. Programs have neither bold nor italic type, so they write `cam.u` and `cam.d`:
+there, `d` is the direction, and `u` is on the viewport. The checker's tables of mistakes, the
+stepper's loops and the panel's tooltips are written with words; program() and spoken() translate
+them. Tasks of courses whose programs use words keep them (`notation = "code"`).
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ _NAME = re.compile(r"(?<![\w.])(?:cam(?:era)?\.)?[A-Za-z_]\w*")
 
 
 def answer(name: str) -> str:
-    """Return the name of what an exercise asks for: a vector, a part of a ray, or numbers such as
+    """Return the name of an exercise's answer: a vector, a part of a ray, or numbers such as
     `left, top, d`.
     """
     return f"{name} {_ARGUMENTS[name]}" if name in ("origin", "direction") else name
@@ -99,7 +99,7 @@ def words(text: str, notation: Notation = "book") -> str:
 
 @functools.lru_cache(256)
 def spoken(text: str, notation: Notation = "book") -> str:
-    """Return words() without the backticks, for where code has no type of its own."""
+    """Return words() without the backticks, for text in which code has no font of its own."""
     return words(text, notation).replace("`", "")
 
 
