@@ -1,12 +1,12 @@
 """The transition from one camera to another, as a pure function of time (travel.py has the clock).
 
-Both cameras are described relative to the focus, a world point: where it is in the camera's
+Both cameras are described relative to the focus, a world point. Its position in the camera's
 coordinates moves evenly, and so do the viewport and its distance. Each intermediate state is a true
-camera. From perspective to parallel, the tangent of half the field of view goes evenly to 0: the
+camera. From perspective to parallel, the tangent of half the field of view falls evenly to 0: the
 eye recedes and the distance grows (a dolly zoom), until parallel rays make no visible difference.
 
-The basis B = R S (polar decomposition): R turns uniformly about one axis (slerp; Shoemake 1985),
-and the stretch S goes evenly: symmetric positive definite matrices are a convex set, so that no
+The basis is B = R S (polar decomposition). R turns uniformly about one axis (slerp; Shoemake 1985),
+and the stretch S changes evenly: symmetric positive definite matrices are a convex set, so no
 intermediate basis is singular. Cameras of opposite handedness cannot turn into one another without
 a singular basis: there is no transition, and the caller jumps (`possible`).
 """
@@ -29,14 +29,14 @@ from lucida.renderer.system.errors import LucidaError
 Number = TypeVar("Number", float, Floats)
 
 LEAST_SLOPE = 1e-4  # the height of the picture over its distance at which rays become parallel
-_PINHOLE = Lens("brown")  # the same as none
+_PINHOLE = Lens("brown")  # equivalent to no lens
 
 
 class Pose(NamedTuple):
     """A camera as seen from the focus, in units of u, v and w.
 
     turn, stretch: B = turn @ stretch, (3, 3).
-    at: the focus, from the eye: to the right, up, ahead (3,).
+    at: the focus relative to the eye: right, up, ahead, (3,).
     window: the part of the plane through the focus that is in the picture: left, right, bottom,
     top.
     slope: the window's height over its distance; 0 for parallel rays.
@@ -58,7 +58,7 @@ class Passage:
 
     def __init__(self, start: View, end: View, focus: ArrayLike, size: tuple[int, int]) -> None:
         self.start, self.end = start, end
-        # Views that differ in fitting pass as they are drawn.
+        # Views that differ in fitting are interpolated as they are drawn.
         self._fit, self._given = start.fit and end.fit, end.given
         same = start.fit == end.fit
         first, last = (v.camera if same else v.for_size(size) for v in (start, end))
@@ -74,8 +74,8 @@ class Passage:
     def at(self, part: float, eased: bool = True) -> View:
         """Return the view at 0 (start) to 1 (end) of the time.
 
-        Both ends are exact; all views between are legal. eased: with a slow start and a slow end;
-        otherwise at an even pace.
+        Both ends are exact; all views between are legal. eased: True for a slow start and a slow
+        end; otherwise the pace is even.
         """
         if part <= 0:
             return self.start
@@ -111,7 +111,7 @@ class Passage:
                 viewport, distance = scale * viewport, scale * depth
         near = far = None
         if is_mixed or (first.near is not None and last.near is not None):
-            # What is behind the other eye must not come into the picture.
+            # Points behind the other eye must not enter the picture.
             begins = _lerp(one.at[2] - (first.near or 0.0), two.at[2] - (last.near or 0.0), s)
             near = depth - begins if depth - begins > SMALLEST else None
         if first.far is not None and last.far is not None:
@@ -125,7 +125,7 @@ class Passage:
 
 def lens_between(start: Lens | None, end: Lens | None, s: float) -> Lens | None:
     """Return the lens at 0 (start) to 1 (end). Coefficients change evenly between lenses of one
-    model, and between a pinhole and a photographic lens; others change at half of the way.
+    model, and between a pinhole and a photographic lens; others change halfway.
     """
     if start == end:
         return start
@@ -156,7 +156,7 @@ def _polar(basis: Floats) -> tuple[Floats, Floats]:
 
 
 def _slerp(start: Floats, end: Floats, s: float) -> Floats:
-    """Return the rotation part of the way between two orthogonal matrices of the same
+    """Return the rotation at the fraction `s` between two orthogonal matrices of the same
     handedness.
     """
     turn = end @ start.T

@@ -19,15 +19,15 @@ from lucida.renderer.system.errors import one_line
 from .basis import measures
 from .other_words import of_any_size
 
-LISTED = 3  # cameras in a file, and sizes
-ROUNDING = 1e-14  # of a vector's largest component: less is rounding
+LISTED = 3  # the number of names and sizes that are listed
+ROUNDING = 1e-14  # relative to a vector's largest component: smaller ones are rounding
 ORTHONORMAL = 1e-4  # the largest error of a basis's dot products
 
 Fact = tuple[str, str]  # the name of a quantity, "" if it continues the previous one; its text
 
 
 def facts(found: CameraSet, chosen: PosedCamera | None = None) -> list[Fact]:
-    """Return the lines on a file: on the selected camera, else on all together."""
+    """Return the facts about a file: about the selected camera, or else about all together."""
     told = [("format", f"{found.format}: {format_named(found.format).what}")]
     told += [("" if number else "taken", phrase) for number, phrase in enumerate(found.taken)]
     cameras = found.cameras if chosen is None else (chosen,)
@@ -99,7 +99,7 @@ def basis_text(camera: Camera) -> str:
 
 
 def as_data(found: CameraSet, chosen: PosedCamera | None = None) -> dict[str, Any]:
-    """Return the same as JSON values.
+    """Return the facts about a file as JSON values.
 
     K, R and t map a point to pixels whose centres are whole numbers. They are None for a parallel
     camera, and if there is no image size.

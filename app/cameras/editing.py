@@ -1,6 +1,6 @@
 """The camera's numbers during editing: invalid values wait in a Draft until they are valid.
 
-Pure. The state always holds a valid camera, the last one.
+Pure. The state always holds a valid camera, the last valid one.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class Draft:
 
     camera: the valid one that is being edited.
     fields: entered values that are not in it, by name.
-    error: the reason.
+    error: the reason why they do not.
     base: the camera at the beginning of a drag. Orthonormal edits start from it, so that dragging
     back restores everything.
     """
@@ -38,7 +38,7 @@ class Draft:
         return cls(camera)
 
     def following(self, camera: Camera) -> Draft:
-        """This draft if it still belongs to the camera, else a fresh one."""
+        """Return this draft if it still belongs to the camera, else a fresh one."""
         return self if camera is self.camera or camera == self.camera else Draft(camera)
 
     def value(self, name: str) -> Any:

@@ -1,7 +1,7 @@
-"""Lenses to choose from: what each model is called, its formula, and its coefficients' usual
-range; and presets, which bring the viewport along.
+"""The lens models: their names, formulas and usual ranges of coefficients; and presets, which also
+set the viewport.
 
-Pure. Sources: the presets' coefficients are of the size that calibrations of such cameras have.
+Pure. Source: the presets' coefficients are as large as in calibrations of such cameras.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ NO_LENS = "none: a pinhole"
 
 @dataclass(frozen=True)
 class Kind:
-    """A model. name: as photographers say. note: what it is. latex: its formula."""
+    """A model. name: the photographers' term. note: a description. latex: its formula."""
 
     name: str
     note: str
@@ -27,11 +27,11 @@ class Kind:
 
 
 RADIUS = """\
-r' is how far from the middle of the image something is seen, in units of d.
+r' is a point's distance from the middle of the image, in units of d.
 theta is the angle between its direction and the view axis.
-r = tan(theta) is where a pinhole sees it."""
+r = tan(theta) is that distance in a pinhole's image."""
 PANORAMA = """\
-a' and b' are how far to the right and downwards something is seen, in units of d.
+a' and b' are a point's distances to the right and downwards in the image, in units of d.
 Longitude and latitude are the angles of its direction, in radians, from the view axis."""
 KINDS = {
     "brown": Kind(
@@ -90,7 +90,7 @@ KINDS = {
 
 
 def of_model(model: str) -> Lens:
-    """Return the lens of a model that is not distorted."""
+    """Return the lens of a model, without distortion."""
     return Lens(model, {"omega": 1.0} if model == "fov" else {})
 
 
@@ -107,7 +107,7 @@ def with_lens(camera: Camera, lens: Lens | None, focus: Vector) -> Camera:
 class LensPreset:
     """A lens with the distance of its viewport, which is 1 high and as wide as the image.
 
-    panorama: the viewport is all of the lens's 2 pi by pi.
+    panorama: True if the viewport is all of the lens's 2 pi by pi.
     """
 
     name: str
@@ -116,7 +116,7 @@ class LensPreset:
     panorama: bool = False
 
     def of(self, camera: Camera, aspect: float) -> Camera:
-        """Return the camera with this lens: eye and basis stay. aspect: the image's."""
+        """Return the camera with this lens: eye and basis stay. aspect: the image's ratio."""
         half = (math.pi, math.pi / 2) if self.panorama else (aspect / 2, 0.5)
         return replace(
             camera,

@@ -21,7 +21,7 @@ from lucida.renderer.system.errors import LucidaError
 MOST_CHARACTERS = 4000
 ROUNDED = 5e-3  # error of a rotation that was printed with few digits
 PARALLEL = 1e-3  # sine of the angle between rows that are parallel
-SKEW = 0.05  # of fx: the largest skew in a K that was computed
+SKEW = 0.05  # relative to fx: the largest skew of a computed K
 AXES = {
     "y up, z back (OpenGL)": (1, 1, 1),
     "y down, z forward (OpenCV)": (1, -1, -1),
@@ -39,8 +39,8 @@ _NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 class Meaning:
     """A meaning of a matrix.
 
-    words: what it is, a line for each name; the last line says where its camera is.
-    view: that camera.
+    words: its description, a line for each name; the last line states the camera's place.
+    view: that camera's view.
     """
 
     words: str
@@ -56,8 +56,8 @@ def matrix_in(text: str) -> Floats | None:
 def meanings(matrix: Floats, now: View, center: ArrayLike) -> list[Meaning]:
     """Return the usual meanings of a matrix that make a camera.
 
-    Those whose camera looks at `center`, the scene's middle, come first. now: the present view, for
-    what a matrix leaves open.
+    Those whose camera looks at `center`, the scene's middle, come first. now: the current view, for
+    values that a matrix leaves open.
     """
     found: dict[tuple[float, ...], tuple[list[str], View]] = {}
     transposed = matrix.reshape(4, -1).T
@@ -132,7 +132,7 @@ def _pixels(rows: Floats) -> View:
 
 
 def _aim(camera: Camera, center: Floats) -> float:
-    """Return the cosine of the angle between the view direction and the way to `center`."""
+    """Return the cosine of the angle between the view direction and the direction to `center`."""
     way, w = center - camera.eye, np.asarray(camera.w)
     return float(-w @ way / max(float(np.linalg.norm(way) * np.linalg.norm(w)), 1e-12))
 

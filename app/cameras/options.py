@@ -1,6 +1,6 @@
 """The camera's fields as command-line options.
 
-Quick to import: heavy modules are imported inside functions.
+This module is quick to import: heavy modules are imported inside functions.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ CAMERA_OPTIONS = (*CAMERA_FIELDS, "fit", "target", "up", "fov")
 
 
 def numbers(count: int) -> Callable[[str], Any]:
-    """Return a function that reads `count` numbers with commas between them; one is no tuple."""
+    """Return a function that reads a number, or a tuple of `count` numbers between commas."""
 
     def read(text: str) -> Any:
         try:
@@ -68,18 +68,18 @@ def add_camera_options(parser: argparse.ArgumentParser) -> None:
     options: list[tuple[str, dict[str, Any], str]] = [
         ("eye", three, "the position: --eye 0,0,5"),
         ("target", three, "look at this point, with an orthonormal basis"),
-        ("up", three, "what is upwards then (default: 0,1,0)"),
+        ("up", three, "the upward direction then (default: 0,1,0)"),
         ("u", three, "the basis: right"),
         ("v", three, "the basis: up"),
         ("w", three, "the basis: back"),
-        ("distance", one | {"metavar": "D"}, "of the viewport, along -w"),
+        ("distance", one | {"metavar": "D"}, "the viewport's, along -w"),
         ("fov", one | {"metavar": "DEG"}, "vertical field of view, instead of the distance"),
         (
             "viewport",
             {"type": numbers(4), "metavar": "L,R,B,T"},
             "left, right, bottom, top, used unchanged",
         ),
-        ("projection", {"choices": projections}, "of the rays"),
+        ("projection", {"choices": projections}, "the rays' projection"),
         ("near", one | {"metavar": "N"}, "clip plane, in units of w"),
         ("far", one | {"metavar": "F"}, "clip plane, in units of w"),
         (
@@ -143,7 +143,7 @@ def _as_wide(view: View, fov_deg: float) -> View:
 
     camera = view.camera
     if camera.is_parallel:
-        problem = "is nothing that a parallel projection has"
+        problem = "does not apply to a parallel projection"
         raise LucidaError("--fov", problem, "give --viewport, or --projection perspective")
     with errors_as("--fov"):
         camera = replace(camera, distance=distance_for(camera, fov_deg))

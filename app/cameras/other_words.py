@@ -1,4 +1,4 @@
-"""K, R and t of the camera for the current image: to read in a panel, and to copy.
+"""K, R and t of the camera for the current image, to read in a panel and to copy.
 
 Pure; the formulas are renderer/camera/intrinsics.py's.
 """
@@ -18,12 +18,12 @@ from lucida.renderer.scene.model import View
 
 TOLD = "A world point p is seen at the pixel (x, y): (x, y, 1) ~ K (R p + t)"
 _DIGITS, _GIVEN_DIGITS = 5, 8
-_TINY = 1e-12  # of a matrix's largest number: less is rounding
+_TINY = 1e-12  # relative to a matrix's largest number: smaller ones are rounding
 
 
 class OtherWords(NamedTuple):
-    """K, R and t as text. read: lines for a fixed-width font. copied: all digits, in the form that
-    programs and Lucida read.
+    """K, R and t as text. read: lines for a fixed-width font. copied: a text with all digits, in
+    the form that programs and Lucida read.
     """
 
     read: tuple[str, ...]
@@ -78,7 +78,7 @@ def _clean(part: Floats) -> Floats:
 
 
 def _table(name: str, part: Floats, digits: int = _DIGITS) -> list[str]:
-    """Return rows with the name before the first, each column as wide as it must be."""
+    """Return rows with the name before the first, each column as narrow as possible."""
     texts = [[f"{value:.{digits}g}" for value in row] for row in part.tolist()]
     widths = [max(map(len, column)) for column in zip(*texts, strict=True)]
     rows = ["  ".join(map(str.rjust, row, widths)) for row in texts]

@@ -20,7 +20,7 @@ from lucida.renderer.camera.checks import Vector
 from lucida.renderer.scene.model import View
 
 WIDEST = 1.0  # slope up to which a lens counts as a frame: 45 degrees to each side
-MARGIN = 1.1  # of the picture around the framed points
+MARGIN = 1.1  # the picture's size relative to the framed points
 SMALLEST = 1e-9  # smallest extent, relative to the distance to the world's origin
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
@@ -95,7 +95,7 @@ def preset_view(
     """Return the preset's camera, in parallel projection, with the scene in the picture.
 
     framed_points, everything: (n, 3), world space, as in Focus.
-    aspect: the image's, width over height.
+    aspect: the image's width over its height.
 
     Raises LucidaError if the scene is too large for a camera.
     """
@@ -105,12 +105,12 @@ def preset_view(
 
 
 def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Camera:
-    """Return the camera moved so that `points` (n, 3) fill its viewport, centred in it. Any basis.
+    """Return the camera moved so that `points` (n, 3) fill its viewport, centred in it.
 
-    The basis and the viewport's shape stay. In perspective the eye moves; in parallel projection
-    the viewport is resized. Without points, the camera is unchanged.
+    The basis, which may be any, and the viewport's shape stay. In perspective the eye moves; in
+    parallel projection the viewport is resized. Without points, the camera is unchanged.
     everything: points that must also be in front of a parallel camera.
-    A lens is taken as the pinhole with its viewport, up to WIDEST.
+    A lens counts as the pinhole with its viewport, up to WIDEST.
 
     Raises LucidaError.
     """

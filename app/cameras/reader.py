@@ -1,4 +1,4 @@
-"""Reading a camera from copied text: text.py's forms but for Python, and similar ones.
+"""Read a camera from copied text: text.py's forms except Python, and similar ones.
 
 Pure. Text without a camera raises a LucidaError of one line.
 """
@@ -25,8 +25,8 @@ MOST_CHARACTERS = 100_000
 def read_copied(text: str, now: View) -> TakenCamera:
     """Return the camera in a text, with its lens if it has one. Raises LucidaError.
 
-    now: the current view, for what the text leaves open. Other programs leave the distance open,
-    which only scales the viewport's numbers.
+    now: the current view, for values that the text leaves open. Other programs leave the distance
+    open, which only scales the viewport's numbers.
     """
     if len(text) > MOST_CHARACTERS:
         remedy = "copy a camera first; a set of cameras is opened as a file"

@@ -1,4 +1,4 @@
-"""Remedies for a black image: the cause in, a state with another camera or exposure out.
+"""Remedies for a black image: each cause leads to a state with another camera or exposure.
 
 Pure. The causes are those of renderer/compare/why_black.py.
 """
@@ -22,7 +22,7 @@ _REMEDIES = {
 
 
 def remedy_for(reason: Reason) -> str:
-    """Return the label of a button that helps; "" if no camera and no exposure does."""
+    """Return the label of a button that helps; "" if no camera or exposure helps."""
     return _REMEDIES.get(reason.cause, "")
 
 

@@ -20,7 +20,7 @@ class TakenCamera:
 
     view: the resulting view.
     said: its format, conventions and lens, in a sentence.
-    posed: as in its source.
+    posed: the camera as in its source.
     """
 
     view: View
@@ -47,7 +47,7 @@ def told_of(found: CameraSet) -> str:
 def is_fitted(posed: PosedCamera) -> bool:
     """Return True if images of other shapes may show more than the camera's own.
 
-    Not if its pixels are not square: its own image would then change.
+    They may not if its pixels are not square: its own image would then change.
     """
     if posed.size is None:
         return posed.fit

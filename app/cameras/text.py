@@ -1,6 +1,6 @@
 """A camera as text to copy: a view file, Python, OpenGL matrices.
 
-reader.py reads them back, but for Python.
+reader.py reads them back, except Python.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class Subject:
     """The subject of a text form.
 
     shown: the camera as drawn, with its viewport fitted to the image.
-    bounds: (n, 3) around the scene.
+    bounds: points (n, 3) around the scene.
     """
 
     view: View
@@ -44,7 +44,7 @@ def as_text(form: Form, subject: Subject) -> str:
         return python(subject.view)
     if subject.shown.lens is not None:
         remedy = "take the lens off, or copy another form"
-        raise LucidaError("lens", "is nothing that a matrix holds", remedy)
+        raise LucidaError("lens", "does not fit into a matrix", remedy)
     around = clip_around(subject.shown, subject.bounds)
     return opengl.matrices(subject.shown, around, opengl.FITTED)
 
@@ -66,8 +66,8 @@ def python(view: View) -> str:
 
 
 def _fields(camera: Camera) -> Iterator[tuple[str, Any]]:
-    """Yield the names and values of the camera's fields, without a clip plane or a lens that it has
-    not.
+    """Yield the names and values of the camera's fields, except for a clip plane or a lens that it
+    does not have.
     """
     for field in fields(camera):
         if (value := getattr(camera, field.name)) is not None:

@@ -1,7 +1,7 @@
 """A camera in transition from one view to another while the window draws frames: the camera of both
-images, or the one that looks in the outside view.
+images, or the outside view's own.
 
-Keeps the current passage and its clock; animation.py computes the path.
+The module keeps the current passage and its clock; animation.py computes the path.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ DURATION_S = 0.5
 class Ends:
     """The outside view's camera before and after, as used there: a state may leave it to the view.
 
-    size: of that view, (width, height).
+    size: that view's, (width, height).
     of: returns the camera in a state.
     put: returns the state with another camera.
     """
@@ -41,7 +41,7 @@ class CameraTransition:
     where it is.
 
     now_s: the clock, in seconds.
-    instant: transitions end at once (pictures, tests).
+    instant: True if transitions end at once (pictures, tests).
     """
 
     def __init__(self, now_s: Callable[[], float] = time.monotonic) -> None:
@@ -56,7 +56,7 @@ class CameraTransition:
 
     @property
     def gesture(self) -> Hashable:
-        """The key that joins all steps of a transition into one undo step."""
+        """Return the key that joins all steps of a transition into one undo step."""
         return ("passage", self._number)
 
     @property
@@ -74,9 +74,9 @@ class CameraTransition:
         """Start towards the target's view, or towards its outside camera if the ends are given.
         Return the state to show now.
 
-        That is the target itself if there is nothing to see in between: another scene, a mirrored
+        Return the target itself if there is nothing to see in between: another scene, a mirrored
         camera, or a user who wants no motion.
-        size: of the images.
+        size: the images' size.
         """
         self.stop()
         start, end = state.view, target.view

@@ -1,4 +1,4 @@
-"""The commands of `lucida`, one per module: NAME, configure(parser),
+"""The commands of `lucida`, one per module, which defines NAME, configure(parser) and
 run(arguments).
 
 Without a command's name, `lucida` runs app/commands/view.py: the window.

@@ -1,4 +1,4 @@
-"""Shared by the commands: the parser, the types of arguments, the camera, the progress bar.
+"""The parts that commands share: the parser, the types of arguments, the camera, the progress bar.
 
 It is quick to import: heavy modules are imported inside functions.
 """
@@ -84,7 +84,7 @@ def samples(text: str) -> int:
 
 
 def whole(least: int, most: int, complaint: str) -> Callable[[str], int]:
-    """Return a parser of whole numbers from `least` to `most`. complaint: on other numbers."""
+    """Return a parser of whole numbers from `least` to `most`. complaint: for other numbers."""
 
     def parse(text: str) -> int:
         if not (_is_whole(text) and least <= int(text) <= most):
@@ -95,7 +95,7 @@ def whole(least: int, most: int, complaint: str) -> Callable[[str], int]:
 
 
 def real(is_allowed: Callable[[float], bool], complaint: str) -> Callable[[str], float]:
-    """Return a parser of the numbers that are allowed. complaint: on other numbers."""
+    """Return a parser of the numbers that are allowed. complaint: for other numbers."""
 
     def parse(text: str) -> float:
         with contextlib.suppress(ValueError):
@@ -114,7 +114,7 @@ def add_size_option(
 
 
 def add_drawing_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options of how an image is drawn and shown."""
+    """Add the options for drawing and displaying an image."""
     parser.add_argument(
         "--samples",
         type=samples,
@@ -155,7 +155,7 @@ def check_is_scene(source: str) -> None:
 def own_camera(arguments: argparse.Namespace) -> PosedCamera | None:
     """Return the camera of --view; None without it. Raises LucidaError.
 
-    Sets arguments.size to the image's size: the user's, or else this camera's own.
+    Set arguments.size to the image's size: the user's, or else this camera's own.
     """
     posed = viewed(arguments)
     if arguments.size is None:
@@ -176,7 +176,7 @@ def scene_and_view(
 ) -> tuple[Scene, View]:
     """Return the scene, and the view of --view or else of the scene, with the camera's options.
 
-    Sets arguments.size to the image's size.
+    Set arguments.size to the image's size.
     posed: the result of own_camera().
     """
     from lucida.renderer.files import load_scene
@@ -217,7 +217,7 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
     """
     from lucida.renderer.system import compile_note
 
-    told = compile_note.note()  # on earlier compilation
+    told = compile_note.note()  # about earlier compilation
     bar = _bar(label) if sys.stderr.isatty() else None
 
     def report(fraction: float) -> None:

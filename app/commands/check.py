@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 NAME = "check"
 
 PYTHON = (".py", ".pyw", "")
-NOT_ENDED = "The check did not come to its end: nothing has been graded."
+NOT_ENDED = "The check did not finish: nothing has been graded."
 
 DESCRIPTION = """\
 Check a student's code, a Python file or any program, and report what it does instead of its task.
@@ -103,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.task is not None:
             tasks = [named(tasks, arguments.task)]
         student = _student(arguments, limits)
-        if arguments.json != "-":  # results to find if the student's program ends this process
+        if arguments.json != "-":  # leaves results even if the student's program ends this process
             write(NOT_ENDED)
         try:
             tasks = _possible(arguments, student, tasks)
@@ -133,8 +133,8 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _why(error: LucidaError) -> list[str]:
-    """Return the student's own lines for a file that does not run, and its output up to that
-    point.
+    """Return the output of a student's file up to its failure, and the failing lines, if it does
+    not run.
     """
     from lucida.app.checking.checked import failure_lines
     from lucida.app.checking.running.file import NotRunnableError
@@ -148,15 +148,15 @@ def _why(error: LucidaError) -> list[str]:
 def _possible(
     arguments: argparse.Namespace, student: ProgramStudent, tasks: list[CheckTask]
 ) -> list[CheckTask]:
-    """Return the tasks to try: all that a lecturer or the user has named; of the built-in ones,
-    those whose functions exist.
+    """Return the tasks to try: all that a lecturer or the user has named, or else the built-in
+    ones whose functions exist.
     """
     functions = student.functions()
     if functions is None or arguments.tasks is not None or arguments.task is not None:
         return tasks
     found = [task for task in tasks if task.function in functions]
     if not found:
-        problem = "it has none of the functions that are asked for"
+        problem = "it has none of the requested functions"
         names = dict.fromkeys(task.function for task in tasks)
         raise LucidaError("", problem, f"define one of {', '.join(names)}", arguments.file)
     return found
@@ -183,7 +183,7 @@ def _write_json(
         with atomic_write(path) as file:
             file.write(text.encode())
     except LucidaError:
-        with contextlib.suppress(OSError):  # an earlier check's must not pass for this one's
+        with contextlib.suppress(OSError):  # earlier results must not pass for this check's
             Path(path).unlink()
         raise
 
@@ -236,7 +236,7 @@ def _student(arguments: argparse.Namespace, limits: Limits) -> FileStudent | Com
 
     path = Path(arguments.file)
     if path.suffix.lower() not in PYTHON:
-        problem, remedy = "is no Python file", "--command runs other programs: lucida check -h"
+        problem, remedy = "is not a Python file", "--command runs other programs: lucida check -h"
         raise LucidaError("", problem, remedy, str(path))
     return FileStudent(path, limits, arguments.python or "", _account(arguments))
 

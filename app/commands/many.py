@@ -1,4 +1,4 @@
-"""Shared by the commands that draw many pictures: the options of workers, and the drawing itself.
+"""The parts that commands for many pictures share: the workers' options and the drawing itself.
 
 It is quick to import.
 """
@@ -26,7 +26,7 @@ def add_workers_options(parser: argparse.ArgumentParser, what: str) -> None:
         metavar="N",
         help=f"processes that draw {what}\nside by side (default: 1)",
     )
-    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="of Dask, for a cluster")
+    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="Dask's, for a cluster")
 
 
 def look_of(arguments: argparse.Namespace) -> Look:
@@ -44,7 +44,7 @@ def look_of(arguments: argparse.Namespace) -> Look:
 
 
 def make_film(film: Film, arguments: argparse.Namespace, what: str) -> None:
-    """Draw what is missing, behind a progress bar. what: the pictures, in words. Raises
+    """Draw what is missing, with a progress bar. what: the pictures, in words. Raises
     LucidaError.
     """
     from lucida.app.cameras.films.film import begin, make

@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     posed = common.own_camera(arguments)
     pixel = _pixel(arguments)
     scene, camera = common.scene_and_camera(arguments, posed)
-    # The whole image, so that the pixel is the same as in a file.
+    # Draw the whole image, so that the pixel is the same as in a file.
     with common.progress_bar("ray") as progress, Tracer(scene) as tracer:
         frame = tracer.render(camera, arguments.size, progress=progress)
     seen = picked(scene, camera, frame, pixel)

@@ -111,7 +111,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def draw(scene: Scene, camera: Camera, arguments: argparse.Namespace) -> Frame:
-    """Render with the chosen renderer, behind a progress bar.
+    """Render with the selected renderer, with a progress bar.
 
     The frame has the requested channel, and id, which shows whether anything is hit.
     """

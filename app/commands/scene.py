@@ -1,4 +1,4 @@
-"""`lucida scene [SCENE]`: the contents of a scene, and what is odd about it."""
+"""`lucida scene [SCENE]`: list a scene's contents and oddities."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _contents(scene: Scene) -> list[str]:
-    """Return a line on the whole, one for each object and each light, and what is odd."""
+    """Return a line about the whole, one for each object and light, and one for each oddity."""
     from lucida.renderer.editing.outline import outline
     from lucida.renderer.files.oddities import oddities
     from lucida.renderer.files.saving import light_table

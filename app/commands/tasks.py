@@ -94,8 +94,9 @@ def all_tasks(source: str | None) -> tuple[list[CheckTask], Limits]:
 
 
 def named(tasks: list[CheckTask], name: str, field: str = "--task") -> CheckTask:
-    """Return the task with a name, also with _ for -, or with a function's name. Raises
-    LucidaError. field: the argument that has the name.
+    """Return the task with a name, in which _ may replace -, or with a function of that name.
+
+    field: the argument that has the name. Raises LucidaError.
     """
     from lucida.renderer.files.reading import suggestion
 

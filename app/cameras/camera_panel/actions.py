@@ -1,6 +1,6 @@
 """The actions of the camera: projection, presets, framing, copying and pasting.
 
-Names, keys and effects on the window, shared by panels and menus. The cameras come from presets.py
+Panels and menus share these names, keys and effects on the window. The cameras come from presets.py
 and navigation.py, the texts from text.py and reader.py.
 """
 
@@ -46,13 +46,13 @@ def switch_projection(window: Host) -> None:
 
 
 def _say_if_off(window: Host, camera: Camera) -> None:
-    """Say that parallel rays have taken the lens off."""
+    """Show a message if parallel rays have taken the lens off."""
     if camera.is_parallel and window.state.camera.lens is not None:
         window.files.say(LENS_OFF)
 
 
 def go_to_lens(window: Host, preset: LensPreset) -> None:
-    """Move to a lens of the presets: eye and basis stay."""
+    """Move to a preset's lens; eye and basis stay."""
     width, height = image_size(window)
     camera = preset.of(window.state.camera, width / height)
     window.travel(window.state.with_camera(camera))

@@ -1,7 +1,8 @@
 """The camera's panel: every number of the camera, to drag and to type.
 
-Lays out the panel and draws eye and basis. projection.py has the numbers of the projection, the
-other modules have the sections below them. Takes a state and a draft and returns new ones.
+The module lays out the panel and draws eye and basis. projection.py has the numbers of the
+projection, the other modules have the sections below them. They take a state and a draft and return
+new ones.
 """
 
 from __future__ import annotations
@@ -76,7 +77,7 @@ def _panel(
         wish = _resets() or wish
     state, draft, sections, wanted = _sections(state, draft, panel.sections, around)
     draft, wish = draft.following(state.camera), wanted or wish
-    if draft.error is not None:  # at the end: no number moves
+    if draft.error is not None:  # at the end, so that no number moves
         wrapped(str(draft.error), theme.legible(theme.ERROR))
         if imgui.button("Back to the camera shown") or (wish is not None and wish.leaves):
             draft = Draft.of(draft.camera)
@@ -92,7 +93,7 @@ def _projection(state: AppState) -> Wish | None:
         wanted = False
     rows.tip(PERSPECTIVE)
     style = imgui.get_style()
-    if imgui.get_item_rect_size().x + style.item_spacing.x < half:  # else below: very large type
+    if imgui.get_item_rect_size().x + style.item_spacing.x < half:  # else: very large type
         imgui.same_line(style.window_padding.x + half)
     if radio_button("parallel", parallel):
         wanted = True
@@ -131,7 +132,7 @@ def _vectors(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppSt
 
 
 def _resets() -> Wish | None:
-    """Draw the buttons of the two cameras to begin with."""
+    """Draw the buttons of the two initial cameras."""
     wish = None
     width = (imgui.get_content_region_avail().x - imgui.get_style().item_spacing.x) / 2
     if imgui.button("Scene's view", (width, 0)):

@@ -1,6 +1,6 @@
 """The camera panel's numbers of the picture: distance, field of view, viewport.
 
-Takes a state and a draft and returns new ones, including the coupling between the numbers.
+Its functions take a state and a draft and return new ones, in which coupled numbers agree.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ VIEWPORT = (
     ("bottom", "The viewport's lower edge, in units of v."),
     ("top", "The viewport's upper edge, in units of v."),
 )
-RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
-DISTANCE = "d: how far the image plane lies from the eye along -w, in units of w."
+RECTANGLE = "The image's rectangle on the image plane, in units of u and v."
+DISTANCE = "d: the distance from the eye to the image plane along -w, in units of w."
 FIELD_OF_VIEW = """\
 The vertical angle between the viewport's lower and upper edge, seen from the eye.
-It and d are one number: the viewport stays, d changes."""
+It determines d: the viewport stays, d changes."""
 FIT = """\
 On: the viewport is widened or heightened to the image's shape.
-Off: it is used as it stands, and the picture may look stretched."""
+Off: it is used unchanged, and the picture may look stretched."""
 NO_EYE = "none, rays are parallel"
 
-LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
+LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # the limits of dragging
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ class PanelContext:
         reset: float | None = None,
         unit: str = "",
     ) -> tuple[bool, float]:
-        """Draw a field. Return (whether it changed, its value). See number_field()."""
+        """Draw a field. Return (True if it changed, its value). See number_field()."""
         mono = self.fonts.mono
         return number_field(name, value, width_px, scale, color, mono, tooltip, wrong, reset, unit)
 
@@ -71,7 +71,7 @@ class PanelContext:
 def projection_numbers(
     state: AppState, draft: Draft, around: PanelContext
 ) -> tuple[AppState, Draft]:
-    """Draw the numbers that are to be shown into the current window."""
+    """Draw the visible numbers into the current window."""
     options = state.options.camera
     if options.shows("d"):
         state, draft = _distance(state, draft.following(state.camera), around)
@@ -136,13 +136,13 @@ def _distance(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppS
 
 
 def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple[AppState, Draft]:
-    """Draw the distance as an angle, of the viewport as drawn."""
+    """Draw the distance as an angle: the field of view of the viewport as drawn."""
     width = rows.row("field of view", "", FIELD_OF_VIEW, around.fonts, derived=True)
     if state.camera.is_parallel:
         rows.instead(NO_EYE)
         return state, draft
     shown = around.shown
-    if shown.distance != state.camera.distance:  # changed in this very frame
+    if shown.distance != state.camera.distance:  # changed in this frame
         shown = replace(shown, distance=state.camera.distance)
     changed, value = around.field(
         "field of view",

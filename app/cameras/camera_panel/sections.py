@@ -1,6 +1,6 @@
 """The camera panel's sections below its numbers: K, R and t, look at.
 
-Draws the widgets and returns the effects of clicks, which camera_panel/view.py runs.
+The module draws the widgets and returns the effects of clicks, which camera_panel/view.py runs.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ ORIGIN_NOTES: dict[PixelOrigin, str] = {
     "corner": "The image's corner is (0, 0), the first pixel's centre (0.5, 0.5), as in COLMAP.",
 }
 LOOK_FIELDS = (
-    ("target", "What it looks at: in the middle of an on-axis image."),
-    ("up", "Which direction is up in the image; not along the view direction."),
+    ("target", "The point in view: in the middle of an on-axis image."),
+    ("up", "The direction that is up in the image; not along the view direction."),
 )
 
 
 @dataclass(frozen=True)
 class LookAt:
-    """The form's contents. target: None for that of a lecture's step, or the scene's centre."""
+    """The form's contents. target: None for a lecture step's target, or the scene's centre."""
 
     target: Vector | None = None
     up: Vector = (0.0, 1.0, 0.0)
@@ -54,7 +54,7 @@ class Sections:
 
 
 class Wish(NamedTuple):
-    """A click's effect. leaves: it moves the camera, so that invalid numbers are dropped."""
+    """A click's effect. leaves: True if it moves the camera, which drops invalid numbers."""
 
     run: Callable[[Host], None]
     leaves: bool = True
@@ -65,7 +65,7 @@ def header(name: str, sections: Sections) -> bool:
     imgui.set_next_item_open(name in sections.opened, imgui.Cond_.always)
     opened = imgui.collapsing_header(name)
     if imgui.is_item_toggled_open():
-        imgui.internal.mark_ini_settings_dirty()  # it belongs to what a session keeps
+        imgui.internal.mark_ini_settings_dirty()  # the session keeps it
     return opened
 
 

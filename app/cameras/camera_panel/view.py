@@ -1,6 +1,6 @@
 """The camera's panel as a view.
 
-Keeps the draft of invalid numbers. camera_panel/panel.py draws the panel.
+It keeps the draft of invalid numbers. camera_panel/panel.py draws the panel.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ CAMERA = "Camera"
 class CameraView(Instrument):
     """The camera's panel.
 
-    draft: numbers that make no valid camera yet.
+    draft: numbers that do not make a valid camera yet.
     entered: the contents of the sections.
     """
 

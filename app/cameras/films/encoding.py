@@ -1,5 +1,5 @@
-"""The file made of pictures, by its ending: a film (MP4 with H.264), or a large image
-(PNG, EXR) of its parts.
+"""Files made of pictures, by their ending: a film (MP4 with H.264), or a large image (PNG, EXR)
+that is joined from its parts.
 """
 
 from __future__ import annotations
@@ -19,15 +19,15 @@ from lucida.renderer.system.errors import LucidaError
 
 from .workers import PACKAGE
 
-# Writes a file of these pictures, and yields the finished part.
+# A writer writes a file of these pictures, and yields the finished fraction.
 Writer = Callable[[Path, Sequence[Path]], Iterator[float]]
 BT709 = 1  # H.264's number for its primaries, transfer function and matrix
 
 
 def film_writer(path: Path, size: Size, fps: float) -> Writer | None:
-    """Return what writes a film into that file; None for a folder of frames.
+    """Return the writer of a film's file; None for a folder of frames.
 
-    size: of a frame. Raises LucidaError if the file cannot hold such a film.
+    size: a frame's size. Raises LucidaError if the file cannot hold such a film.
     """
     ending = path.suffix.lower()
     if not ending:
@@ -46,7 +46,7 @@ def film_writer(path: Path, size: Size, fps: float) -> Writer | None:
 
 
 def image_writer(channel: str, size: Size) -> Writer:
-    """Return what joins parts that lie below one another to an image, as .png or .exr."""
+    """Return a writer that joins parts, one below another, to an image, as .png or .exr."""
 
     def write(path: Path, parts: Sequence[Path]) -> Iterator[float]:
         with atomic_write(path) as file:
@@ -74,7 +74,7 @@ def _film(fps: float, size: Size, path: Path, frames: Sequence[Path]) -> Iterato
         stream.width, stream.height = size
         stream.pix_fmt = "yuv420p"  # the only one that every player shows
         stream.options = {"crf": "16"}
-        # Without tags, players take small films for BT.601's.
+        # Without tags, players assume that small films use BT.601.
         stream.color_primaries = stream.color_trc = stream.colorspace = BT709
         stream.color_range = ColorRange.MPEG
         for number, one in enumerate(frames, 1):
@@ -97,5 +97,5 @@ def _opened(path: Path, size: Size) -> Image.Image:
     return image
 
 
-def _no_picture(path: Path, problem: str = "is no picture") -> LucidaError:
+def _no_picture(path: Path, problem: str = "is not a picture") -> LucidaError:
     return LucidaError("", problem, "delete it, and run the command again", str(path))

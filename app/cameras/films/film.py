@@ -1,7 +1,7 @@
 """A film or a large image, made of pictures in a folder.
 
-Pictures whose files exist are not drawn again, so the command goes on after a break. The folder is
-the film itself (OUT/), or is next to OUT until that file is finished (OUT.frames).
+Pictures whose files exist are not drawn again, so the command continues after a break. The folder
+is the film itself (OUT/), or is next to OUT until that file is finished (OUT.frames).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .encoding import Writer
 from .frames import Look, Shot
 from .workers import drawn_by_workers, drawn_here
 
-_ENCODING = 0.1  # of the progress
+_ENCODING = 0.1  # its share of the progress
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +47,7 @@ class Film:
 
 
 def begin(film: Film) -> int:
-    """Make the folder of the frames. Return how many of them are there already.
+    """Make the folder of the frames. Return the number of existing ones.
 
     Raises LucidaError if the folder cannot be made.
     """
@@ -67,7 +67,7 @@ def make(
 ) -> None:
     """Draw what is missing, and write the file. begin() must have been called.
 
-    workers: the number of processes; scheduler: the address of Dask's, for many machines.
+    workers: the number of processes; scheduler: a Dask scheduler's address, for many machines.
     progress: called with the finished part, 0 to 1. Raises LucidaError.
     """
     frames = film.frames

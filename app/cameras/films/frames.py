@@ -21,8 +21,8 @@ from lucida.renderer.scene.model import Scene
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture to draw. size: of the camera's image. rows: the first, and the one past the last;
-    None for all.
+    """A picture to draw. size: the camera's image size. rows: the first row, and the one past the
+    last; None for all.
     """
 
     camera: Camera
@@ -32,10 +32,10 @@ class Shot:
 
 @dataclass(frozen=True)
 class Look:
-    """The settings of pictures; all but threads decide what they look like.
+    """The settings of pictures; all but threads affect their look.
 
-    samples: per pixel. shadows, mirrors: of the ray tracer. threads: None for one per processor.
-    channel, ending: what is written of each (a frame's channel, or z), and its format.
+    samples: samples per pixel. shadows, mirrors: the ray tracer's effects. threads: None for one
+    per processor. channel, ending: the channel that is written (a frame's, or z), and its format.
     """
 
     renderer: Literal["raster", "ray"] = "raster"
@@ -50,7 +50,7 @@ class Look:
 
 
 class Drawing:
-    """The renderer of one scene, kept from picture to picture. Loads only the one that is used."""
+    """The renderer of one scene, kept from picture to picture. Only the one in use is loaded."""
 
     def __init__(self, scene: Scene, look: Look) -> None:
         self.scene, self.look = scene, look

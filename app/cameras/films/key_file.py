@@ -30,7 +30,7 @@ LONGEST_S = 3600.0
 
 
 class KeyTable(StrictTable):
-    """[[keys]]."""
+    """A table of [[keys]]."""
 
     camera: dict[str, Any] | str
     seconds: float | None = None

@@ -24,7 +24,7 @@ ZOOM = 4.0  # the dolly zoom's change of distance
 
 @dataclass(frozen=True)
 class Key:
-    """A camera on the way. seconds, timing: from here to the next key."""
+    """A camera on the path. seconds, timing: those of the transition to the next key."""
 
     view: View
     seconds: float = 2.0
@@ -32,8 +32,8 @@ class Key:
 
 
 def around(view: View, focus: Focus, size: Size, count: int) -> list[Camera]:
-    """Return cameras all around the focus, the eye moving to the right. The last frame is followed
-    by the first.
+    """Return cameras that circle the focus once, the eye moving to the right. The first frame
+    follows the last one.
     """
     camera = view.for_size(size)
     angles = np.linspace(0, -2 * math.pi, count, endpoint=False).tolist()

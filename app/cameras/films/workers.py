@@ -54,7 +54,7 @@ def drawn_by_workers(
         )
     except ImportError:
         raise LucidaError("--workers", "needs the package distributed", PACKAGE) from None
-    for name in ("distributed", "distributed.client"):  # what they log is raised, too
+    for name in ("distributed", "distributed.client"):  # the errors that they log are raised, too
         logging.getLogger(name).setLevel(logging.CRITICAL)
     with ExitStack() as opened:
         address: Any = scheduler
@@ -65,7 +65,7 @@ def drawn_by_workers(
                 LocalCluster(
                     n_workers=workers,
                     threads_per_worker=1,
-                    memory_limit=0,  # Dask's own, a share of the memory, pauses workers for good
+                    memory_limit=0,  # Dask's default limit pauses workers for good
                     dashboard_address=None,
                     silence_logs=50,
                 )
@@ -97,5 +97,5 @@ def drawn_by_workers(
                 yield numbers.pop(future.key), content
         except (CancelledError, KilledWorker, OSError) as error:
             problem = f"the workers were lost ({type(error).__name__})"
-            remedy = "run the command again: it goes on where it stopped"
+            remedy = "run the command again: it continues where it stopped"
             raise LucidaError(field, problem, remedy) from None

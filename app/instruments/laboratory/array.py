@@ -74,7 +74,7 @@ def _number(sheet: Sheet, texts: tuple[str, str], at: Point, numpy: float, color
 
 
 def _turns(numpy: float) -> tuple[float, float]:
-    """Return how much of Julia's and of NumPy's words is seen: one goes before the other comes."""
+    """Return the opacities of Julia's and of NumPy's words: one fades before the other appears."""
     return max(0.0, 1 - 2 * numpy), max(0.0, 2 * numpy - 1)
 
 

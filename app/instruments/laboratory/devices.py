@@ -1,4 +1,4 @@
-"""Line drawings of what makes images: pencil, brush, eye, camera, and the virtual camera."""
+"""Line drawings of image-making devices: pencil, brush, eye, camera, and the virtual camera."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from lucida.renderer.camera.checks import Floats
 from .page import Page
 from .sheet import BLACK, WHITE, YELLOW, Sheet, between, circle, mixed, reached, rectangle, rounded
 
-ROOM, STEP = (15.5, 9.6), (16.0, 12.0)  # of each drawing, and from one to the next
-FINE = 96  # points of outlines that turn into each other
+ROOM, STEP = (15.5, 9.6), (16.0, 12.0)  # the size of each drawing, and the step to the next
+FINE = 96  # points of outlines that morph into each other
 EDGE = 0.16
-BODY, LENS = rounded((3.6, 2.4), (8.2, 5.2), 0.6), circle((7.7, 5.0), 1.9)  # of the camera
-FRAME = np.array([(7.6, 1.4), (11.0, 2.4), (11.0, 8.2), (7.6, 7.2)])  # of the virtual camera
+BODY, LENS = rounded((3.6, 2.4), (8.2, 5.2), 0.6), circle((7.7, 5.0), 1.9)  # parts of the camera
+FRAME = np.array([(7.6, 1.4), (11.0, 2.4), (11.0, 8.2), (7.6, 7.2)])  # the virtual camera's image
 EYE = (3.4, 4.9)
 
 
@@ -37,7 +37,7 @@ def devices(page: Page) -> Figure:
 
 
 def place(number: int) -> Floats:
-    """Return the upper left corner of a drawing's room."""
+    """Return the upper left corner of a drawing's area."""
     return np.array([STEP[0] * (number % 2), STEP[1] * (number // 2)])
 
 
@@ -97,7 +97,7 @@ def _camera(sheet: Sheet) -> None:
 
 
 def _virtual(sheet: Sheet, turned: float) -> None:
-    """Draw the camera on its way to an eye and a frame of pixels. turned: the part of the way."""
+    """Draw the camera turning into an eye and a frame of pixels. turned: 0 to 1."""
     look, grown = sheet.look, sheet.part(opacity=max(0.0, 2 * turned - 1))
     for corner in FRAME:
         grown.line([EYE, corner + 0.45 * (corner - EYE)], look.ray)

@@ -22,23 +22,25 @@ from .sheet import LIGHTS, WALL, YELLOW, Sheet, mixed, reached, rectangle, round
 Floats = NDArray[np.float32]
 Place = tuple[float, float, float, float, float]  # middle x, y; half the width, height; rounding
 
-FADING = 0.1  # of a cycle, until a phosphor's light has fallen to 1/e; real ones are quicker
+FADING = 0.1  # the share of a cycle in which a phosphor's light falls to 1/e; real ones are faster
 GRAY = 0.3
-DARKEST = 30  # of an element, as displayed
+DARKEST = 30  # the least displayed value of an element
 COLORS = np.array(
     [[(1, 1, 1), (1, 1, 0), (0, 1, 1), (0, 1, 0)],
      [(GRAY, GRAY, GRAY), (1, 0, 1), (1, 0, 0), (0, 0, 1)]], np.float32,
 )  # fmt: skip
 MARKED = (1, 0)  # the gray pixel
 MOMENTS = 240
-SIDE, LANE = 3.5, 0.95  # of a pixel, and of a chart of its light
+SIDE, LANE = 3.5, 0.95  # the sizes of a pixel, and of a chart of its light
 
 
 @dataclass(frozen=True)
 class DisplayKind:
-    """light: maps (colour, phase) to the light of each element, 0..1 of its full brightness.
-    places: of the red, green and blue elements in a pixel of side 1, or of the one for all.
-    way: what makes the colours.
+    """A kind of display.
+
+    light: maps (colour, phase) to the light of each element, 0..1 of its full brightness.
+    places: those of the red, green and blue elements in a pixel of side 1, or of the only element.
+    way: the origin of its colours, in words.
     """
 
     title: str
@@ -48,21 +50,21 @@ class DisplayKind:
 
     @property
     def elements(self) -> list[tuple[list[int], Place]]:
-        """The elements of a pixel: the channels of each, and its place. A mirror has all three."""
+        """Return a pixel's elements: each one's channels and place. A mirror has all three."""
         if len(self.places) == 1:
             return [([0, 1, 2], self.places[0])]
         return [([channel], place) for channel, place in enumerate(self.places)]
 
 
 def _fading(color: Floats, phase: float) -> Floats:
-    """A beam meets one pixel after another, row by row; what it met fades."""
+    """Return the light of dots that fade after a beam has hit them one by one, row by row."""
     rows, columns = color.shape[:2]
     met = np.arange(rows * columns).reshape(rows, columns, 1) / (rows * columns)
     return np.asarray(color * np.exp(-((phase - met) % 1.0) / FADING), np.float32)
 
 
 def _mirrored(color: Floats, phase: float) -> Floats:
-    """A third of the cycle for each colour; in it a mirror sends light for a share of the time."""
+    """Return the light of a mirror: it is on for a share of each colour's third of the cycle."""
     third = min(int(3 * phase), 2)
     light = np.zeros_like(color)
     light[..., third] = color[..., third] > 3 * phase - third
@@ -74,7 +76,7 @@ def _held(color: Floats, phase: float) -> Floats:
 
 
 def _switched(color: Floats, phase: float) -> Floats:
-    """Fully on, for a share of the time."""
+    """Return light that is fully on for a share of the time."""
     return np.asarray(color > phase, np.float32)
 
 
@@ -128,7 +130,7 @@ def displays(page: Page) -> Figure:
 
 
 def _pixels(sheet: Sheet, kind: DisplayKind, phase: float) -> None:
-    """Draw the elements of all pixels with the light that they send, and a frame about the gray
+    """Draw the elements of all pixels with the light that they send, and a frame around the gray
     one.
     """
     rows, columns = COLORS.shape[:2]
@@ -153,7 +155,7 @@ def _shown(light: Floats) -> Color:
 
 
 def _lanes(sheet: Sheet, kind: DisplayKind, phase: float) -> None:
-    """Draw the gray pixel's red, green and blue light over a cycle, and the moment."""
+    """Draw the gray pixel's red, green and blue light over a cycle, and mark the moment."""
     look, width, tall = sheet.look, SIDE * COLORS.shape[1], 0.9 * LANE
     for channel, values in enumerate(course(kind).T):
         lane = sheet.part((0.0, LANE * channel))

@@ -18,8 +18,8 @@ from .stored import kept
 
 # The shape of images: width and height. Two side by side are square.
 SHAPE, SQUARE = (3, 2), (1, 1)
-MOST_PX = 1 << 20  # of an image; in a larger rectangle its pixels are squares
-NUMBERED = 12  # frames of at most so many pixels a side have numbers on them
+MOST_PX = 1 << 20  # per image; in a larger rectangle its pixels are squares
+NUMBERED = 12  # frames of at most this many pixels a side have numbers on them
 # Wavelengths in nm: the ends of the spectrum; the middle and the width of red, green and blue.
 FIRST_NM, LAST_NM = 400.0, 700.0
 PEAKS = ((610.0, 42.0), (540.0, 38.0), (458.0, 30.0))
@@ -48,14 +48,14 @@ def boxes(page: str, size: Size, shape: Size) -> tuple[Point, tuple[Box, ...]]:
 
 
 def _inside(corner: Point, room: Point, shape: Size) -> Box:
-    """Return the largest rectangle of a shape in the middle of a room."""
+    """Return the largest rectangle of a shape in the middle of an area."""
     unit = min(room[0] / shape[0], room[1] / shape[1])
     extent = unit * shape[0], unit * shape[1]
     return (corner[0] + (room[0] - extent[0]) / 2, corner[1] + (room[1] - extent[1]) / 2), extent
 
 
 def image_size(page: str, size: Size, resolution: Size | None) -> Size:
-    """Return the size of the image that a page of `size` pixels shows. resolution: if fixed."""
+    """Return the size of the image that a page of `size` pixels shows. resolution: a fixed size."""
     if resolution is not None and page == "raster":
         return resolution
     shape = SQUARE if page == "exposure" and is_wide(size) else SHAPE
@@ -113,7 +113,7 @@ def _spectrum(sheet: Sheet, light: NDArray[np.float32], at: Point, room: Point) 
 
 
 def cone_light(nm: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return about how wavelengths look: linear red, green and blue (n, 3)."""
+    """Return the approximate colours of wavelengths: linear red, green and blue (n, 3)."""
     bumps = [np.exp(-(((nm - middle) / width) ** 2)) for middle, width in PEAKS]
     return np.stack(bumps, axis=1) + 0.02
 
@@ -156,7 +156,7 @@ def _numbered(count: int) -> range:
 
 
 def kinds(page: Page) -> Figure:
-    """Draw the image as each kind keeps it, one with each build."""
+    """Draw the image as each kind stores it, one more with each build."""
     progress = min(page.progress, len(KINDS) - 1)
     first = int(progress)
     picture, part = _kept(page, KINDS[first]), progress - first

@@ -1,4 +1,4 @@
-"""The kinds of raster image that the lecture names, and what each costs."""
+"""The kinds of raster image that the lecture names, and their costs."""
 
 from __future__ import annotations
 
@@ -9,18 +9,20 @@ LECTURE_SIZE = (1024, 1024)  # the lecture's megapixel
 
 @dataclass(frozen=True)
 class Kind:
-    """bits: of one pixel."""
+    """A kind of raster image. bits: the number of bits per pixel."""
 
     title: str
     bits: int
 
     @property
     def each(self) -> str:
-        """Its bits, as a caption."""
+        """Return its bits as a caption."""
         return "1 bit per pixel" if self.bits == 1 else f"{self.bits} bits per pixel"
 
     def storage_bytes(self, size: tuple[int, int]) -> int:
-        """Bytes of an image of (width, height), uncompressed; rows begin at a whole byte."""
+        """Return the bytes of an uncompressed image of (width, height), whose rows begin at whole
+        bytes.
+        """
         width, height = size
         return -(-width * self.bits // 8) * height
 

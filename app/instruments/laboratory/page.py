@@ -19,7 +19,7 @@ Image = NDArray[np.float32]
 class Page:
     """The input of a drawing.
 
-    size: of the sheet in pixels. color: the image, (height, width, 3), linear; empty where the
+    size: the sheet's size in pixels. color: the image, (height, width, 3), linear; empty if the
     drawing shows none. taken_ev: its exposure in stops. place: the position that is read, as
     fractions of the image's width and height.
     """

@@ -23,7 +23,7 @@ from .storage import storage
 class Kind:
     """A kind of page.
 
-    builds: the largest progress that changes it. has_image: it shows the scene's image.
+    builds: the largest progress that changes it. has_image: True if it shows the scene's image.
     """
 
     title: str

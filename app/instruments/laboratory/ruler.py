@@ -13,7 +13,7 @@ from .sheet import BLACK, YELLOW, Point, Sheet, between, mixed, reached
 COUNT = 10  # pixels in a row, and in a column
 PIXEL = (3, 7)  # row and column, from 1
 CELL, CORNER = 1.3, np.array((16.2, 2.9))
-ROW_Y = 10.4  # of the row of pixels below the corner, before it is in its image
+ROW_Y = 10.4  # the y of the row of pixels before it moves into its image
 ACROSS = ("j - 0.5", "/ W", "- 0.5 = u")
 DOWN = ("i - 0.5", "/ H", "- 0.5", "v")
 TEXT = 1.22
@@ -29,7 +29,7 @@ def numbers(pixel: int) -> list[tuple[float, float, float]]:
 
 
 def ruler(page: Page) -> Figure:
-    """Draw a row of pixels. Builds 1, 2 and 3 go on to u; build 4 does the same with a column."""
+    """Draw a row of pixels. Builds 1, 2 and 3 lead to u; build 4 does the same with a column."""
     down, look = reached(page.progress, 4), page.look
     extent = between(down, [(22.4, 15.2), (31.1, 26.4)])
     sheet = page.sheet((extent[0], extent[1]), between(down, [(8.8, 11.2), (0.0, 0.0)]))
@@ -54,7 +54,7 @@ def ruler(page: Page) -> Figure:
 
 
 def _across(sheet: Sheet, progress: float, row_y: float) -> None:
-    """Draw the rulers below the row, and the way from one to the next."""
+    """Draw the rulers below the row, and the lines that connect them."""
     x, look = CELL * (PIXEL[1] - 0.5), sheet.look
     for number, (name, values) in enumerate(zip(ACROSS, numbers(PIXEL[1]), strict=True)):
         y = 14.3 + 3.2 * number

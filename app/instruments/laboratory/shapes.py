@@ -1,4 +1,4 @@
-"""One drawing in two representations: as pixels and as shapes, more and more magnified."""
+"""One drawing in two representations: as pixels and as shapes, at increasing magnification."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from lucida.renderer.images.display import Bytes
 from .page import Page
 from .sheet import Look, Sheet, between, circle, rectangle
 
-SIDE_PX, PIXELS = 512, 128  # of the drawing, and of its raster image
-SAMPLES = 4  # a side of a pixel
+SIDE_PX, PIXELS = 512, 128  # the sizes of the drawing and of its raster image
+SAMPLES = 4  # per side of a pixel
 FOCUS = (0.8, 0.635)  # the point that stays in the middle, as fractions of the drawing
 PANE = 15.0
-# The letters H, M and E as strokes, whose fonts are the same everywhere; O is an ellipse.
+# The letters H, M and E are strokes, which look the same everywhere; O is an ellipse.
 WORD = (
     [(0, 0), (0, 1)], [(1.1, 0), (1.1, 1)], [(0, 0.5), (1.1, 0.5)],
     [(3.4, 1), (3.4, 0), (4.05, 0.6), (4.7, 0), (4.7, 1)],
@@ -29,7 +29,7 @@ WORD = (
 
 
 def raster_and_vector(page: Page) -> Figure:
-    """Draw both. Build 1 magnifies four times, build 2 sixteen times."""
+    """Draw both representations. Build 1 magnifies four times, build 2 sixteen times."""
     zoom = 4 ** min(page.progress, 2.0)
     drawing = house(page.look)
     picture = bitmap(drawing, (PIXELS, PIXELS))
@@ -97,7 +97,7 @@ def bitmap(figure: Figure, size: Size) -> Bytes:
 
 
 def _spots(points: NDArray[np.float64], scale: float) -> list[tuple[float, float]]:
-    """Return points as Pillow takes them, which counts from the middle of the first pixel."""
+    """Return points in Pillow's coordinates, which count from the middle of the first pixel."""
     return [(x, y) for x, y in (points * scale - 0.5).tolist()]
 
 

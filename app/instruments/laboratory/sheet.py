@@ -27,18 +27,18 @@ from lucida.renderer.images.display import Bytes
 
 Point = tuple[float, float]
 
-WIDTH = 0.09  # of a line
-CORNERS = 72  # of a disc
+WIDTH = 0.09  # a line's width
+CORNERS = 72  # per disc
 HEAD = 0.7, 0.28  # the length of an arrow's head, and half of its width
 BLACK, WHITE, YELLOW = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.94, 0.89, 0.26)
-WALL = (0.05, 0.055, 0.065)  # what light falls on, and displays without light, in every theme
+WALL = (0.05, 0.055, 0.065)  # a lit wall, and dark displays, in every theme
 LIGHTS: tuple[Color, ...] = ((1.0, 0.3, 0.3), (0.2, 0.8, 0.4), (0.37, 0.61, 1.0))
 
 
 @dataclass(frozen=True)
 class Look:
-    """The colours of a sheet: of the ground, of text, less and least important lines, fills, what
-    is marked, rays, and the axes u, v and w.
+    """The colours of a sheet: of the ground, of text, less and least important lines, fills,
+    marks, rays, and the axes u, v and w.
     """
 
     ground: Color
@@ -54,10 +54,10 @@ class Look:
 
 
 class Sheet:
-    """Collects the parts of a figure.
+    """A collector of a figure's parts.
 
-    A unit is the size of text; y points down. extent: units of width and height, which fit on the
-    sheet, in its middle. low: the point at the extent's upper left corner.
+    A unit is the size of text; y points down. extent: the width and height in units, which are
+    fitted to the sheet and centred. low: the point at the extent's upper left corner.
     """
 
     def __init__(self, size: Size, look: Look, extent: Point, low: ArrayLike = (0.0, 0.0)) -> None:
@@ -68,7 +68,7 @@ class Sheet:
         self._parts: list[Part] = []
 
     def part(self, corner: ArrayLike = (0.0, 0.0), opacity: float = 1.0) -> Sheet:
-        """Return the same sheet with its point (0, 0) at a corner; what is drawn on it is paler."""
+        """Return the same sheet with its point (0, 0) at a corner, and with paler drawings."""
         other = copy(self)
         low, opacity = self._low - corner, self._opacity * opacity
         other._low, other._opacity = low, opacity  # noqa: SLF001, a copy of its own
@@ -132,7 +132,7 @@ class Sheet:
         strong: bool = False,
         **look: Any,
     ) -> None:
-        """Write a text. strong: bold. look: as in Label, mono, align and rim."""
+        """Write a text. strong: True for bold. look: mono, align and rim, as in Label."""
         if opacity := opacity * self._opacity:
             ink = mixed(self.look.ground, color or self.look.text, opacity)
             x, y = self.px(at).tolist()
@@ -174,22 +174,22 @@ def rounded(low: ArrayLike, extent: ArrayLike, radius: float) -> Floats:
 
 
 def mixed(one: Color, other: Color, part: float) -> Color:
-    """Return a colour between two. part: of the other."""
+    """Return a colour between two. part: the share of the other."""
     part = min(max(part, 0.0), 1.0)
     red, green, blue = ((1 - part) * a + part * b for a, b in zip(one, other, strict=True))
     return red, green, blue
 
 
 def reached(progress: float, number: int) -> float:
-    """Return how much of a drawing's part is there: 0 before build `number`, 1 from it on.
+    """Return the visible share of a drawing's part: 0 before build `number`, 1 from it on.
 
-    progress: of the drawing, in builds.
+    progress: the drawing's progress, in builds.
     """
     return min(max(progress - number + 1, 0.0), 1.0)
 
 
 def between(progress: float, places: Sequence[Any]) -> Any:
-    """Return the value at a progress, where each build has one of `places`."""
+    """Return the value at a progress; `places` has the value of each build."""
     last = len(places) - 1
     first = min(int(progress), max(last - 1, 0))
     part = min(max(progress - first, 0.0), 1.0) if last else 0.0

@@ -1,4 +1,4 @@
-"""An image as it is kept in one of the kinds, and what is seen when it is exposed afterwards."""
+"""An image stored in one of the kinds, and its look when it is exposed afterwards."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The outside view's actions: switches, handles, and where to look from.
+"""The outside view's actions: switches, handles and viewpoints.
 
-The view's own menu and the menu Instruments have the same entries.
+The view's own menu and the Instruments menu have the same entries.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """A wrong answer in the outside view, next to the correct one: vectors, points, a viewing ray.
 
-What a student gave is dashed, in a colour of its own, and named "your"; what is correct is solid.
+The student's answer is dashed, in a colour of its own, and named "your"; the correct one is solid.
 Pure. second_camera.py draws a whole camera.
 """
 
@@ -14,11 +14,11 @@ from lucida.renderer.camera.checks import LARGEST, Floats
 from .diagram import Item, Role, line, named_arrow, named_dot
 from .second_camera import ROLE, GivenRay, second_ray
 
-LONGEST = 2.0  # of a direction that was given, in lengths of the correct one
+LONGEST = 2.0  # a student's direction, in lengths of the correct one
 
 
 def vector(name: str, role: Role, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:
-    """Return a vector at a point as it was given, and as it is."""
+    """Return the student's vector and the correct one, both at a point."""
     start = np.asarray(at, float)
     text = f"vec({name})" if name.isalnum() else name
     return [
@@ -28,7 +28,7 @@ def vector(name: str, role: Role, at: ArrayLike, given: Floats, correct: Floats)
 
 
 def _arrow(name: str, role: Role, text: str, start: Floats, end: Floats) -> list[Item]:
-    """Return an arrow with its name; nothing for numbers that are too large."""
+    """Return an arrow with its name, or nothing if its numbers are too large."""
     is_given = role == ROLE
     return (
         named_arrow(name, role, text, start, end, dashed=is_given, layer=4 + is_given)
@@ -38,7 +38,7 @@ def _arrow(name: str, role: Role, text: str, start: Floats, end: Floats) -> list
 
 
 def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item]:
-    """Return a point as it was given, and as it is, each with a line from `at`."""
+    """Return the student's point and the correct one, each with a line from `at`."""
     start = np.asarray(at, float)
     items: list[Item] = []
     both: list[tuple[str, Role, Floats]] = [
@@ -55,7 +55,7 @@ def point(name: str, at: ArrayLike, given: Floats, correct: Floats) -> list[Item
 
 
 def ray(given: GivenRay, correct: GivenRay, reach: float) -> list[Item]:
-    """Return a viewing ray as it was given, and as it is, with their directions at t = 1.
+    """Return the student's viewing ray and the correct one, with their directions at t = 1.
 
     reach: the length of the drawn rays, world units.
     """

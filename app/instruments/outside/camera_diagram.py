@@ -45,22 +45,23 @@ from .pixel_plane import pixel_items
 from .ray_drawing import half_line, meetings, rays_to
 from .simple_camera import simple_camera
 
-RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
-ABOVE_HANDLES = 0.8  # where a failure is written, in lengths of w
+RIGHT_ANGLE = 0.2  # the side of its mark, in lengths of the axes
+ABOVE_HANDLES = 0.8  # the height of a failure's message, in lengths of w
 WORLD_UP = np.array([0.0, 1.0, 0.0])
-LENS_PARTS = (6, 2, CURVE)  # of a side of a lens's view volume: faces, edges, curves
+LENS_PARTS = (6, 2, CURVE)  # faces, edges and curves per side of a lens's view volume
 
 
 @dataclass(frozen=True)
 class Content:
     """The content of a diagram: a camera and its rays.
 
-    camera: fitted to its image of `size` pixels.
+    camera: the camera, fitted to its image of `size` pixels.
     end: the ray parameter at which the scene ends.
     hits: the bundle's rays.
     marked: the marked pixel's ray.
     grid_parts: the maximum number of parts of a side of the grid.
-    base: the number of the first row and column. origin: where K has whole numbers.
+    base: the number of the first row and column.
+    origin: the point of a pixel that has whole coordinates in K.
     number_step: see pixel_numbers(); None if rows and columns are not numbered.
     meetings: the t of all points where the marked pixel's line meets objects.
     names_t: True to write the t of the marked pixel's hit.
@@ -83,7 +84,7 @@ class Content:
 
 
 def diagram(content: Content) -> list[Item]:
-    """Return everything that the options of the content ask for, with the letters of the book."""
+    """Return all items that the content's options switch on, with the letters of the book."""
     camera, size, options, end = content.camera, content.size, content.options, content.end
     marked = content.marked
     items: list[Item] = []
@@ -108,7 +109,7 @@ def diagram(content: Content) -> list[Item]:
 
 
 def plane_items(content: Content) -> list[Item]:
-    """Return the image plane with its pixels, as far as the options ask for them."""
+    """Return the image plane with its pixels, as far as the options show them."""
     camera, size, options = content.camera, content.size, content.options
     items: list[Item] = []
     if (options.image or options.grid) and not options.simple:
@@ -129,7 +130,7 @@ def _image(camera: Camera) -> list[Item]:
 
 def _volume(camera: Camera, end: float) -> list[Item]:
     """Return the view volume from near to far, or to the end of the scene: a pyramid, a box, or
-    what a lens sees.
+    a lens's volume.
     """
     near, far = camera.t_range
     last = far if np.isfinite(far) else max(end, 1.5 * near)
@@ -149,7 +150,7 @@ def _volume(camera: Camera, end: float) -> list[Item]:
     _, first, back = curves.swapaxes(0, 1)
     faces = np.concatenate([sides[:, 1:], np.roll(sides, -1, axis=0)[:, :0:-1]], axis=1)
     items: list[Item] = [Face("side", "volume", corners, 0.055) for corners in faces]
-    if near > 0:  # nothing is drawn before near: thin
+    if near > 0:  # thin, because nothing is drawn before near
         before = edges[:, :2]
         items.append(Segments("before near", "volume", before, 1.0, 0.55, 0.2, dashed=True))
         items += named("near", first)
@@ -165,7 +166,7 @@ def _volume(camera: Camera, end: float) -> list[Item]:
 
 
 def _eye(camera: Camera, options: OutsideOptions) -> list[Item]:
-    """Return the eye. Parallel rays have none: **e** is the point that the basis starts at."""
+    """Return the eye. Parallel rays have none; **e** is then the point where the basis starts."""
     eye = np.asarray(camera.eye)
     label = Label("eye", "text", "vec(e)", eye, strong=True)
     if not camera.is_parallel:
@@ -174,7 +175,7 @@ def _eye(camera: Camera, options: OutsideOptions) -> list[Item]:
 
 
 def _basis(camera: Camera, options: OutsideOptions, arrow: float) -> list[Item]:
-    """Return the basis, with what it is made from if there is a target."""
+    """Return the basis. If there is a target, add it and the vector up."""
     eye, names = np.asarray(camera.eye, float), ("w", "up", "u", "v")
     share = dict(zip(names, shares(options.basis_grown, len(names)), strict=True))
     up, w = arrow * np.asarray(options.up), arrow * np.asarray(camera.w)
@@ -190,7 +191,7 @@ def _basis(camera: Camera, options: OutsideOptions, arrow: float) -> list[Item]:
             items += named_arrow(name, name, f"{length}vec({name})", eye, tip)
     if has_target:
         items += _target(eye, np.asarray(options.target, float), share["up"] * up)
-    if not has_target or not options.basis:  # an exercise asks for it
+    if not has_target or not options.basis:  # an exercise asks the student for it
         return items
     if fails:
         at = eye + ABOVE_HANDLES * np.linalg.norm(w) * WORLD_UP
@@ -223,7 +224,7 @@ def _right_angles(camera: Camera, arrow: float) -> list[Item]:
 
 
 def _ray(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
-    """Return a ray of a bundle to its hit, or as far as the scene if it hits nothing."""
+    """Return a ray of a bundle to its hit, or to the end of the scene if it hits nothing."""
     t = hit.t_or(end)
     plane = min(plane_parameter(camera), t)
     origin, through, reached = on_ray(camera, hit.pixel, size, [0.0, plane, t])
@@ -242,8 +243,8 @@ def _ray(camera: Camera, size: Size, hit: RayEnd, end: float) -> list[Item]:
 
 
 def _marked(content: Content, hit: RayEnd) -> list[Item]:
-    """Return the marked pixel, its ray through its centre, its hit, and the way beyond. Without an
-    image, whose colour must stay visible, the pixel is filled.
+    """Return the marked pixel, the ray through its centre, its hit, and the ray beyond the hit. The
+    pixel is filled only if no image is shown, because an image's colour must stay visible.
     """
     camera, size, end, t = content.camera, content.size, content.end, hit.t_or(content.end)
     items = [] if camera.lens is None else lens_pixel(camera, size, hit.pixel)

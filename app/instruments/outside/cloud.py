@@ -17,9 +17,11 @@ from .diagram import Segments
 
 @dataclass(frozen=True, eq=False)
 class Cloud:
-    """lines: in world space, all of one colour. points: float32 (n, 3), world units from `origin`
-    (3,), in random order, so that the first ones stand for all. colors: of the points, uint8 (n,
-    3), sRGB. around: a few points (k, 3) around the visible part, world space.
+    """A cloud of points and lines.
+
+    lines: segments in world space, all of one colour. points: float32 (n, 3), world units from
+    `origin` (3,), in random order, so that the first ones represent all. colors: the points'
+    colours, uint8 (n, 3), sRGB. around: a few points (k, 3) around the visible part, world space.
     """
 
     lines: Segments

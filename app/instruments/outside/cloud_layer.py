@@ -1,4 +1,4 @@
-"""A cloud's picture in the outside view, drawn again if the cloud or the view has changed."""
+"""A cloud's picture in the outside view, redrawn when the cloud or the view changes."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from .cloud import Cloud
 from .paint import line_color
 from .screen import OutsideScreen
 
-NEAREST = 1e-3  # of the cloud's reach: what is nearer to the outside camera's eye is not drawn
-CASING_PX = 0.9  # on each side of a line, in widths of a line
-POINT_PX, FEW = 2.0, 30_000  # a point's width; half as much again if there are fewer points
+NEAREST = 1e-3  # times the cloud's reach: points nearer to the outside camera are not drawn
+CASING_PX = 0.9  # a casing's width on each side of a line, in widths of the line
+POINT_PX, FEW = 2.0, 30_000  # a point's width; 1.5 times that for fewer points
 
 
 class CloudLayer:
-    """The cloud of one view, in its context."""
+    """A renderer of one view's cloud, in the view's OpenGL context."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._renderer = CloudRenderer(context)

@@ -1,9 +1,9 @@
 """The parts of a drawing over the outside view, in world space: lines, faces, marks, labels.
 
-Parts have names and roles (their meanings, from which painting and SVG take a colour). Pure: knows
-no outside camera, no pixels, no colours. camera_diagram.py draws a camera with them.
+Parts have names and roles; painting and SVG choose a colour by the role. Pure: the module knows no
+outside camera, no pixels and no colours. camera_diagram.py draws a camera with these parts.
 
-Widths and radii are in units of a line in class, about a pixel at 100 %.
+Widths and radii are in units of a line's width, which is about a pixel at 100 %.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ PALE = 0.42  # the opacity of hidden dashes
 
 @dataclass(frozen=True, eq=False)
 class Segments:
-    """Segments (n, 2, 3).
+    """Line segments (n, 2, 3).
 
-    layer: higher ones cover lower ones. on_plane: part of the image plane, which then does not hide
-    them. dashed: even if nothing hides them.
+    layer: higher layers cover lower ones. on_plane: True for a part of the image plane, which then
+    does not hide it. dashed: True to dash the segments even if nothing hides them.
     """
 
     name: str
@@ -61,7 +61,7 @@ class Face:
 
 @dataclass(frozen=True, eq=False)
 class Arrow:
-    """An arrow from start to end, (3,) each. Its head has a size on the screen."""
+    """An arrow from start to end, (3,) each. Its head has a constant size on the screen."""
 
     name: str
     role: Role
@@ -101,11 +101,11 @@ class Eye:
 class Label:
     """Text next to a point.
 
-    away: a point that the text keeps away from; None to centre it above. strong: a letter of the
-    formulas. least: hide the text if point and `away` are nearer than this on the screen, in units
-    of a line. fixed: the text stays on its side of the point, even if it covers something there.
-    line: the segment (2, 3) that the text names; the text may be anywhere along it. lit: its term
-    is the one that a formula points out.
+    away: a point that the text keeps away from; None to centre it above. strong: True for a letter
+    of the formulas. least: the smallest distance of point and `away` on the screen at which the
+    text is shown, in units of a line. fixed: True if the text stays on its side of the point, even
+    if it covers something there. line: the segment (2, 3) that the text names; the text may be
+    anywhere along it. lit: True if a formula highlights its term.
     """
 
     name: str
@@ -125,7 +125,7 @@ Item = Segments | Face | Arrow | Dot | Eye | Label
 
 @dataclass(frozen=True)
 class RayEnd:
-    """A viewing ray and where it ends. t: inf if nothing is hit, None if it is not known yet."""
+    """A viewing ray and its end. t: inf if nothing is hit, None if it is not known yet."""
 
     pixel: Pixel
     t: float | None
@@ -139,8 +139,8 @@ class RayEnd:
 
 
 def runs(text: str, strong: bool) -> list[tuple[str, bool]]:
-    """Split a label into pieces of one weight, each with True if it is bold: in a formula its
-    vectors are, otherwise all of a strong label is.
+    """Split a label into pieces of one weight, each with True if it is bold. In a formula the
+    vectors are bold; otherwise a strong label is bold throughout.
     """
     pieces = re.split(r"vec\((\w+)\)", text)
     whole = strong and len(pieces) == 1
@@ -148,7 +148,7 @@ def runs(text: str, strong: bool) -> list[tuple[str, bool]]:
 
 
 def shares(grown: float, parts: int) -> list[float]:
-    """Return how much is drawn of each part of a drawing that grows part by part, 0 to 1."""
+    """Return the drawn share, 0 to 1, of each part of a drawing that grows part by part."""
     return [min(max(grown - part, 0.0), 1.0) for part in range(parts)]
 
 
@@ -156,7 +156,7 @@ def named_dot(
     name: str, role: Role, text: str, point: Floats, away: Floats | None, radius: float = 6.0,
     **more: Any,
 ) -> list[Item]:  # fmt: skip
-    """Return a mark with its name, which keeps away from `away`. more: fields of the mark."""
+    """Return a mark, and its name on the side away from `away`. more: fields of the mark."""
     label = Label(name, role, text, point, away=away, strong=True)
     return [Dot(name, role, point, radius, **more), label]
 
@@ -164,7 +164,7 @@ def named_dot(
 def named_arrow(
     name: str, role: Role, text: str, start: Floats, end: Floats, **more: Any
 ) -> list[Item]:
-    """Return an arrow with its name behind the tip. more: further fields of the arrow."""
+    """Return an arrow with its name beyond the tip. more: further fields of the arrow."""
     label = Label(name, role, text, end, away=start, strong=True, least=8.0)
     return [Arrow(name, role, start, end, **more), label]
 

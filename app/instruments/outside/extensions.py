@@ -14,10 +14,10 @@ from .looking import NOTHING
 
 
 class Extension(NamedTuple):
-    """Show something of another instrument in the view.
+    """Content that another instrument adds to the view.
 
-    items: lines and labels. cloud: points and lines by the thousand. picture: on the image plane,
-    instead of the live image; another texture whenever it differs.
+    items: lines and labels. cloud: points and lines by the thousand. picture: the picture on the
+    image plane, instead of the live image; a new texture whenever it changes.
     """
 
     items: tuple[Item, ...] = ()
@@ -26,7 +26,7 @@ class Extension(NamedTuple):
 
 
 class Extensions:
-    """All that is shown in a view, by the instrument that shows it."""
+    """The extensions of one view, by the instrument that adds them."""
 
     def __init__(self) -> None:
         self.by_source: dict[str, Extension] = {}
@@ -52,5 +52,5 @@ class Extensions:
 
     @property
     def points(self) -> Floats:
-        """Return points (n, 3) that must be in sight with the scene."""
+        """Return points (n, 3) that must be visible together with the scene."""
         return NOTHING if self.cloud is None else self.cloud.around

@@ -15,9 +15,9 @@ from lucida.renderer.system.errors import LucidaError
 from .frustum import plane_corners
 
 FOV_Y_DEG = 50.0
-LARGE_REACH = 30.0  # in whose picture an arrow of length 1 is short
-MARGIN = 1.12  # a side of the picture, in those of what it must hold: room for letters
-# From which side one looks: the right of a camera, above, its back.
+LARGE_REACH = 30.0  # in a picture of such a scene, an arrow of length 1 is short
+MARGIN = 1.12  # a side of the picture, relative to its content: space for letters
+# The direction of the default viewpoint from a camera: to the right, above, behind.
 FROM_RIGHT, FROM_ABOVE, FROM_BEHIND = 0.75, 0.5, 1.25
 
 
@@ -25,14 +25,14 @@ def arrow_length(reach: float) -> float:
     """Return the length of a unit vector's arrow: 1, or a power of ten in a scene that is much
     smaller or larger.
 
-    reach: of the scene, see Focus.
+    reach: the scene's reach; see Focus.
     """
     is_usual = 1 <= reach <= LARGE_REACH or reach <= 0
     return 1.0 if is_usual else 10.0 ** math.floor(math.log10(reach))
 
 
 def around(points: Floats, arrow: float, *cameras: Camera) -> Floats:
-    """Return the points (n, 3) with those around cameras: eyes, image planes, bases with
+    """Return the points (n, 3) together with points around cameras: eyes, image planes, bases with
     letters.
 
     arrow: from arrow_length().
@@ -47,8 +47,8 @@ def around(points: Floats, arrow: float, *cameras: Camera) -> Floats:
 
 
 def end_parameter(camera: Camera, points: Floats) -> float:
-    """Return the ray parameter at which the scene ends for a camera; some way beyond its image
-    plane if nothing is in front of it.
+    """Return the ray parameter at which the scene ends for a camera. If nothing is in front of the
+    camera, return one somewhat beyond its image plane.
     """
     least = 1.0 / float(np.linalg.norm(camera.w)) if camera.is_parallel else 1.6
     if not len(points):
@@ -75,7 +75,7 @@ def outside_camera(points: Floats, home: Camera, aspect: float) -> Camera:
 
 def looked_from(up: Floats, back: Floats) -> Floats:
     """Return the unit vector towards an eye that looks from the right of a camera, from behind it
-    and from above. up: a unit vector. back: of the camera.
+    and from above. up: a unit vector. back: the camera's backward direction.
     """
     level = back - (back @ up) * up
     if np.linalg.norm(level) < 0.05 * np.linalg.norm(back):
@@ -92,11 +92,10 @@ def framed(
     aspect: float,
     up: Iterable[float] = (0.0, 1.0, 0.0),
 ) -> Camera:
-    """Return the camera in direction `toward` of the points, unit length, that sees them all as
-    large as possible, but for a margin.
+    """Return the camera that sees all points as large as possible, apart from a margin.
 
     Each plane of a view pyramid bounds the eye linearly, so the nearest eye that satisfies all
-    four is exact. points: (n, 3), at least one.
+    four is exact. points: (n, 3), at least one. toward: the unit vector from them to the eye.
     """
     center = (points.min(axis=0) + points.max(axis=0)) / 2
     upward = np.asarray(tuple(up), float)
@@ -104,7 +103,7 @@ def framed(
         upward = np.array([0.0, 0.0, -1.0])
     camera = Camera.look_at(center + toward, center, upward, fov_y_deg=FOV_Y_DEG, aspect=aspect)
     x, y, z = ((points - center) @ np.asarray(axis) for axis in (camera.u, camera.v, camera.w))
-    # Not so near that the numbers' own steps show.
+    # Keep a distance at which rounding does not show.
     least = max(1e-6 * float(np.abs(center).max()), 1e-9)
     radius = max(float(np.linalg.norm(points - center, axis=1).max()), least)
     tangent_y = math.tan(math.radians(FOV_Y_DEG) / 2)
@@ -119,5 +118,5 @@ def framed(
     try:
         eye = center + offsets[0] * right + offsets[1] * top + depth * back
         return replace(camera, eye=three(eye))
-    except LucidaError:  # a scene at the very ends of the numbers
+    except LucidaError:  # a scene at the limits of the number range
         return Camera.look_at((3.0, 2.0, 5.0), (0.0, 0.0, 0.0), fov_y_deg=FOV_Y_DEG, aspect=aspect)

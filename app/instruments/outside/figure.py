@@ -1,7 +1,7 @@
 """A figure: lines, polygons and labels on a page, over an image of the scene. Pure.
 
-svg.py writes it, painting.py paints it. Lines are divided by the depths of the scene: hidden parts
-are dashed. Positions are in pixels of the page, from its upper left corner, x right, y down.
+svg.py writes it, painting.py paints it. Lines are divided where the scene hides them; hidden parts
+are dashed. Positions are in pixels from the page's upper left corner, x to the right, y down.
 """
 
 from __future__ import annotations
@@ -28,12 +28,12 @@ Bools = NDArray[np.bool_]
 Color = tuple[float, float, float]  # red, green, blue as displayed, 0 to 1
 
 LETTER_PX, STRONG_PX = 16.0, 24.0  # the sizes of labels and of vectors' names, in symbols
-ROOM, STRONG_ROOM = 13.0, 7.0  # from a point to its text, likewise
-LETTER_WIDTH = 0.56  # in parts of its size
+ROOM, STRONG_ROOM = 13.0, 7.0  # the spaces between a point and its text, in symbols
+LETTER_WIDTH = 0.56  # relative to its size
 BEHIND = 1.001  # times the scene's t
-CORNERS = 48  # of a disc
-DASHES = (5.0, 4.0)  # drawn and not drawn, in widths of lines
-RIM = 0.18  # around letters, in parts of their size
+CORNERS = 48  # per disc
+DASHES = (5.0, 4.0)  # lengths of a dash and a gap, in widths of lines
+RIM = 0.18  # the rim's width around letters, relative to their size
 WHITE = (1.0, 1.0, 1.0)  # the colour of rims on a transparent ground
 
 
@@ -63,8 +63,9 @@ class Polygon:
 class Label:
     """A text.
 
-    center: of its box. size: of its font. strong: bold. mono: of fixed width. align: the part of
-    its width that is left of the center: 0, 0.5 or 1. rim: False if it is not on the page's ground.
+    center: the centre of its box. size: the font's size. strong: True for bold. mono: True for a
+    fixed width. align: the share of its width left of the centre: 0, 0.5 or 1. rim: False if it is
+    not on the page's ground.
     """
 
     name: str
@@ -80,7 +81,7 @@ class Label:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """Pixels (height, width, 3 or 4), as displayed, as flat rectangles between two corners."""
+    """Display pixels (height, width, 3 or 4), drawn as flat rectangles between two corners."""
 
     name: str
     pixels: Bytes
@@ -115,7 +116,7 @@ Part = Line | Polygon | Label | Picture | Inset
 class Figure:
     """A page of `size` pixels.
 
-    parts: in the order in which they are drawn. unit: the width of a line. ground: the page's
+    parts: the parts in drawing order. unit: the width of a line. ground: the page's
     colour, and that of the labels' rims; None if it is transparent. image: the scene, (height,
     width, 4) as displayed, stretched over the page; None for lines alone.
     """
@@ -136,8 +137,9 @@ def figure_parts(
 ) -> tuple[Part, ...]:
     """Return the parts of a figure.
 
-    color: of a role, with a tint (1: white, -1: black). t: (height, width), the scene's ray
-    parameters at the pixels of the page, infinity for none. plane: hides what is behind it.
+    color: returns the colour of a role, with a tint (1: white, -1: black). t: (height, width), the
+    scene's ray parameters at the pixels of the page, infinity where nothing is hit. plane: a plane
+    that hides everything behind it.
     """
     is_parallel = screen.camera.is_parallel
     scene = behind = _farthest(t)
@@ -150,7 +152,7 @@ def figure_parts(
         ink = color(part.role, part.tint)
         if isinstance(part, Shape):
             opacity = part.opacity
-            # A solid one, such as an arrow's head, is hidden as a whole, by its middle.
+            # A solid part, such as an arrow's head, is hidden as a whole if its middle is.
             middle, s = part.points.mean(axis=0)[None], part.depth.mean(keepdims=True)
             if opacity == 1 and _is_hidden(middle, s, limit, is_parallel)[0]:
                 opacity = part.hidden
@@ -181,8 +183,8 @@ def _strokes(part: Strokes, ink: Color, limit: Depths, is_parallel: bool) -> Ite
 def divided(
     points: Floats, depth: Floats, limit: Depths, is_parallel: bool
 ) -> tuple[Floats, Bools]:
-    """Divide segments (n, 2, 2) with depths (n, 2) where they become hidden or visible, to about a
-    pixel. Return the pieces (m, 2, 2), and whether each is hidden (m,).
+    """Divide segments (n, 2, 2) with depths (n, 2), to about a pixel, at the points where they
+    become hidden or visible. Return the pieces (m, 2, 2), and (m,) True if hidden.
     """
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     counts = np.maximum(np.ceil(lengths), 1).astype(int)
@@ -197,7 +199,7 @@ def divided(
     start, last = np.flatnonzero(begins[:-1]), np.flatnonzero(begins[1:])
     of = of[start]
     low, high = (place[start] / counts[of])[:, None], ((place[last] + 1) / counts[of])[:, None]
-    # The ends of a segment keep their very numbers: lines are joined by them.
+    # The ends keep their exact numbers, by which segments are joined.
     first = np.where(low == 0, points[of, 0], points[of, 0] + low * along[of])
     second = np.where(high == 1, points[of, 1], points[of, 0] + high * along[of])
     return np.stack([first, second], axis=1), behind[start]
@@ -212,8 +214,9 @@ def _joined(segments: Floats) -> list[Floats]:
 
 
 def _farthest(t: Depths) -> Depths:
-    """Return the largest t of the nine pixels around each: an object's own edge, which lies between
-    its pixels and others, must stay visible.
+    """Return the largest t of the nine pixels around each pixel.
+
+    An object's own edge, which lies between its pixels and others, must stay visible.
     """
     height, width = t.shape
     wide = np.pad(np.where(np.isnan(t), np.inf, t), 1, mode="edge")
@@ -223,7 +226,7 @@ def _farthest(t: Depths) -> Depths:
 
 
 def _is_hidden(points: Floats, depth: Floats, limit: Depths, is_parallel: bool) -> Bools:
-    """Return whether places (n, 2) with depths s (n,) are behind `limit`; False off the page."""
+    """Return True for each place (n, 2) with depth s (n,) behind `limit`; False off the page."""
     height, width = limit.shape
     column, row = np.floor(np.clip(points, -1, 1e6)).astype(int).T
     inside = (column >= 0) & (row >= 0) & (column < width) & (row < height)
@@ -268,7 +271,7 @@ def on_plane(screen: OutsideScreen, plane: Plane, fine: int = 1) -> tuple[Depths
     """Return the plane's ray parameters at the pixels of the page, (height, width), infinity
     outside its picture, and the places (height, width, 2) in the picture, 0 to 1.
 
-    fine: pixels a side of each of the page's.
+    fine: the number of samples per side of a page pixel.
     """
     x, y = ((np.arange(side * fine) + 0.5) / fine - side / 2 for side in screen.size)
     spots = np.stack([*np.meshgrid(x, y), np.ones((len(y), len(x)))], axis=-1)
@@ -288,10 +291,10 @@ def with_picture(
     pixels: Bytes,
     opacity: float,
 ) -> Bytes:
-    """Return an image of the scene (height, width, 4), as many times larger than the screen, with
-    a picture on the image plane.
+    """Return an image of the scene with a picture on the image plane.
 
-    t: of the scene at the image's pixels. pixels: of the picture, (height, width, 3), as displayed.
+    image: (height, width, 4), a whole number of times larger than the screen. t: the scene's ray
+    parameters at the image's pixels. pixels: the picture's, (height, width, 3), as displayed.
     """
     reached, places = on_plane(screen, plane, image.shape[1] // screen.size[0])
     shown = reached < t

@@ -27,14 +27,14 @@ from .screen import OutsideScreen, image_plane
 from .view import OutsideView
 
 PLACE = "Figure"  # see Rasterizer.draw
-GRID_PARTS = 16  # of a side of the image plane
-FINE, LARGE_PX = 2, 1 << 21  # the image's pixels a side of each of the page's; of a larger page, 1
+GRID_PARTS = 16  # per side of the image plane
+FINE, LARGE_PX = 2, 1 << 21  # image pixels per side of a page pixel; 1 for larger pages
 
 
 def outside_figure(host: Host, size: Size, scale: float, page: Rgb) -> Figure:
-    """Return the present outside view as a figure, with the live image if that is shown.
+    """Return the current outside view as a figure, with the live image if that is shown.
 
-    scale: of lines and letters. page: the colour of its ground. Raises LucidaError,
+    scale: the scale of lines and letters. page: the colour of its ground. Raises LucidaError,
     moderngl.Error.
     """
     view, both, state = host.view(OutsideView), host.renderers, host.state
@@ -64,7 +64,7 @@ def outside_figure(host: Host, size: Size, scale: float, page: Rgb) -> Figure:
 
 def _drawn(rasterizer: WindowRasterizer, request: ImageRequest) -> tuple[Depths, Depths]:
     """Return the colours (height, width, 3) in linear light, and the ray parameters (height,
-    width). Waits for the GPU.
+    width). Wait for the GPU.
     """
     textures, (width, height) = rasterizer.draw(request, PLACE), request.size
     color, surface = (

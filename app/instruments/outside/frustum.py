@@ -1,9 +1,9 @@
-"""A camera as a solid thing in the world: its image plane, its view volume, its pixels.
+"""A camera's geometry in the world: its image plane, its view volume, its pixels.
 
 Pure. In the image, (x, y) are coordinates on the image plane in units of u and v; t is the ray
-parameter. Shapes of points end in 3.
+parameter. Arrays of points have a shape that ends in 3.
 
-Behind a lens, rays do not pass their pixels on the image plane; some may not meet it at all.
+Rays behind a lens do not pass through their pixels on the image plane; some may miss it altogether.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from lucida.renderer.camera.image_plane import Size, has_pixel
 
 MOST_GRID_LINES = 32
 STEPS = (1, 2, 5)  # times a power of ten: pixels from one line of the grid to the next
-CURVE = 32  # parts of a side of what is curved
+CURVE = 32  # parts of a curved side
 
 
 def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats:
     """Return world points (..., 3) at parameter t of the rays through (x, y) of the image plane;
-    NaN outside of the lens.
+    NaN outside the lens.
     """
     x, y, t = (np.asarray(part, float) for part in (x, y, t))
     if not camera.is_parallel:
@@ -57,15 +57,15 @@ def plane_corners(camera: Camera) -> Floats:
 
 
 def image_point(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
-    """Return the world points (..., 3) of the image plane at (x, y), where the image shows them."""
+    """Return the world points (..., 3) at (x, y) on the image plane, ignoring a lens."""
     return point_at(camera.pinhole, x, y, plane_parameter(camera))
 
 
 def border(camera: Camera, parts: int = CURVE) -> Floats:
-    """Return points (x, y) around what the camera sees, (4 parts, 2): the viewport's sides, or
-    where the lens ends before. They begin at the upper left and go to the right.
+    """Return points (x, y) around the visible region, (4 parts, 2): on the viewport's sides, or on
+    the lens's edge if that is nearer. They begin at the upper left and go to the right.
 
-    parts: of a side, 1 for the corners.
+    parts: the number of parts per side; 1 for the corners only.
     """
     return _border(
         Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens), parts
@@ -81,7 +81,7 @@ def _border(optics: Camera, parts: int) -> Floats:
     frame = np.concatenate(
         [(1 - share) * start + share * end for start, end in zip(corners, after, strict=True)]
     )
-    # What a lens sees is in one piece around its axis: look for its end on the way from there.
+    # A lens's visible region is connected around its axis: search for its edge from there.
     middle = np.array([min(max(0.0, left), right), min(max(0.0, bottom), top)])
     low, high = np.zeros(len(frame)), np.ones(len(frame))
 
@@ -110,7 +110,7 @@ def grid_step(size: Size, most: int = MOST_GRID_LINES) -> int:
 def grid(camera: Camera, size: Size, most: int = MOST_GRID_LINES) -> Floats:
     """Return the pixel grid's inner lines on the image plane, (n, 2, 3).
 
-    size: of the image. most: parts of a side.
+    size: the image's size. most: the largest number of parts per side.
     """
     left, right, bottom, top = camera.viewport
     step = grid_step(size, most)
@@ -130,8 +130,8 @@ def pixel_corners(camera: Camera, pixel: Pixel, size: Size) -> Floats:
 
 
 def bundle_pixels(size: Size, counts: tuple[int, int]) -> NDArray[np.int64]:
-    """Return the pixels, (n, 2), of a bundle of rows x columns rays: those in the middles of as
-    many equal parts of the image.
+    """Return the pixels (n, 2) of a bundle of rows x columns rays: those in the middles of equal
+    parts of the image.
     """
     sides = [(min(count, side), side) for count, side in zip(counts, size[::-1], strict=True)]
     rows, columns = (((np.arange(n) + 0.5) * side / max(n, 1)).astype(int) for n, side in sides)
@@ -139,7 +139,7 @@ def bundle_pixels(size: Size, counts: tuple[int, int]) -> NDArray[np.int64]:
 
 
 def pixel_seen(camera: Camera, size: Size, origin: Floats, direction: Floats) -> Pixel | None:
-    """Return the pixel of the image plane that a ray from elsewhere meets; None without one."""
+    """Return the pixel of the image plane that a ray from elsewhere meets, or None."""
     back = camera.camera_from_world[2]
     depth = 0.0 if camera.is_parallel else camera.distance
     with np.errstate(all="ignore"):

@@ -26,16 +26,18 @@ from .tint import Rgb8, handle_colors, repaint
 
 gizmo = imguizmo.im_guizmo
 
-LENGTH = 0.26  # of the view: the handles' length in clip space
-WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # at 100 %: of lines, their heads, rings
-PARALLEL = math.sin(math.radians(3))  # of up with w: then it is put quite parallel
-NEAREST = 0.02  # of the view's distance: an eye that is nearer has no handles
+LENGTH = 0.26  # the handles' length in clip space
+WIDTH, ARROW, RING = 3.0, 7.0, 2.5  # widths of lines, heads and rings at 100 %
+PARALLEL = math.sin(math.radians(3))  # up and w at a smaller angle become exactly parallel
+NEAREST = 0.02  # times the view's distance: a nearer eye has no handles
 
 
 @dataclass(frozen=True)
 class _Drag:
-    """A drag. camera, up, frame: at its start; the frame is the handles' axes, as columns of a
-    rotation. now: the frame now.
+    """A drag of a handle.
+
+    camera, up, frame: their values at its start; the frame is the handles' axes, as columns of a
+    rotation. now: the current frame.
     """
 
     camera: Camera
@@ -72,7 +74,7 @@ class Gizmo:
         frame[:3, :3] = rotation_of(camera) if self._drag is None else self._drag.now
         frame[:3, 3] = camera.eye
         operation = gizmo.OPERATION.translate if kind == "move" else gizmo.OPERATION.rotate
-        # In its own space, x, y and z are u, v and w.
+        # In the handles' own space, x, y and z are u, v and w.
         handle = Handle(
             "outside", frame, operation, gizmo.MODE.local, LENGTH, handle_colors(ground)
         )
@@ -89,7 +91,7 @@ class Gizmo:
         if escaped():
             after, self._drag = (self._drag.camera, self._drag.up), None
         elif found.moved is not None and np.isfinite(found.moved).all():
-            with contextlib.suppress(LucidaError):  # beyond the numbers: the camera stays
+            with contextlib.suppress(LucidaError):  # out of the number range: the camera stays
                 after = self._moved(self._drag, state, found.moved)
         if after != (camera, options.up):
             # One drag is one undo step.
@@ -111,10 +113,10 @@ class Gizmo:
 
 
 def with_up(camera: Camera, before: Camera, up: Floats) -> tuple[Camera, Vector]:
-    """Return a camera whose basis is made from w and `up`, and the vector up, which becomes
-    parallel to w if it almost is. Then there is no basis, and the camera stays.
+    """Return a camera whose basis is made from w and `up`, and the vector up. If up is almost
+    parallel to w, it becomes exactly parallel; then there is no basis, and the camera stays.
 
-    before: has w, and the lengths of u and v.
+    before: the camera with w and the lengths of u and v.
     """
     w = np.asarray(before.w) / np.linalg.norm(before.w)
     across = np.cross(up, w)
@@ -127,10 +129,10 @@ def with_up(camera: Camera, before: Camera, up: Floats) -> tuple[Camera, Vector]
 
 
 class Handle(NamedTuple):
-    """Handles of ImGuizmo.
+    """A set of ImGuizmo's handles.
 
-    name: distinguishes them from others. frame: (4, 4), where they are, with their axes. length: in
-    clip space. colors: in place of ImGuizmo's.
+    name: a unique name. frame: their position and axes, (4, 4). length: their length in clip space.
+    colors: the colours that replace ImGuizmo's.
     """
 
     name: str
@@ -152,10 +154,10 @@ class Manipulated(NamedTuple):
 def manipulate(
     handle: Handle, camera: Camera, origin: ImVec2, extent: ImVec2, reach: float
 ) -> Manipulated | None:
-    """Draw handles into the current window, seen by a camera; None if they are not well in front
-    of it.
+    """Draw handles into the current window, seen by a camera. Return None if they are not well in
+    front of it.
 
-    origin, extent: of the view. reach: of everything in sight.
+    origin, extent: the view's corner and size. reach: the reach of everything in sight.
     """
     matrices = gl_matrices(camera, handle.frame[:3, 3], reach)
     if matrices is None:
@@ -176,7 +178,7 @@ def manipulate(
         matrix16(view), matrix16(projection), handle.operation, handle.mode, matrix,
     )  # fmt: skip
     using, over = is_dragging(), gizmo.is_using() or gizmo.is_over()
-    gizmo.pop_id()  # is_using() asks for the pushed one
+    gizmo.pop_id()  # is_using() refers to the pushed ID
     repaint(draw, first, handle.colors)
     after = np.asarray(matrix.values, float).reshape(4, 4).T if moved else None
     return Manipulated(using, over, after)
@@ -226,7 +228,7 @@ def begin_handles() -> None:
 
 
 def let_go() -> None:
-    """End the drag of a handle although the mouse is still down. ImGuizmo itself goes on."""
+    """End the drag of a handle although the mouse is still down. ImGuizmo itself continues it."""
     global _let_go
     _let_go = True
 
@@ -241,7 +243,7 @@ def is_dragging() -> bool:
 def escaped() -> bool:
     """Return True if Escape cancels and ends the drag of a handle.
 
-    Call in each frame of a drag: Escape does nothing else meanwhile.
+    Call this in each frame of a drag: Escape does nothing else meanwhile.
     """
     imgui.internal.set_key_owner(imgui.Key.escape, imgui.get_id("handle"))
     if not imgui.is_key_pressed(imgui.Key.escape, False):

@@ -1,4 +1,4 @@
-"""The scene from outside, without the drawing over it: its edges are smooth when it is still."""
+"""The scene from outside, without the drawing over it. Its edges are smooth once it is still."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from lucida.renderer.images.coarseness import STILL_S, reduced
 from lucida.renderer.raster.overlay import Overlay
 from lucida.renderer.raster.targets import Textures
 
-PLACES = {1: "Outside", 2: "Outside, moving"}  # by how many times coarser, see Rasterizer.draw
-SLOW_S = 1 / 30  # from one picture to the next while it moves: pictures become coarser
-# Parts of a pixel by which the pictures of a mean are shifted: no two in a row or column. The last
-# is not, so that what lies behind is decided at the pixels' centres.
+PLACES = {1: "Outside", 2: "Outside, moving"}  # by coarseness, see Rasterizer.draw
+SLOW_S = 1 / 30  # time per moving picture above which pictures become coarser
+# Subpixel shifts of the pictures that are averaged: no two are in a row or column. The last picture
+# is not shifted, so that visibility is decided at the pixels' centres.
 SHIFTS = ((-0.125, -0.375), (0.375, -0.125), (0.125, 0.375), (-0.375, 0.125), (0.0, 0.0))
 
 
 @dataclass(frozen=True, eq=False)
 class GroundPicture:
-    """The scene from outside: another object for each drawing.
+    """A picture of the scene from outside; each drawing makes a new one.
 
-    changed_s: since when it has been requested. factor: how many times coarser it is. mean: its
+    changed_s: the time of the request. factor: its coarseness; 1 for full resolution. mean: its
     colour with smooth edges, once it has been still.
     """
 
@@ -36,7 +36,7 @@ class GroundPicture:
 
 
 class Ground:
-    """The scene's picture in one view. It stays while only the other camera moves.
+    """The scene's picture in one view. It is kept while only the other camera moves.
 
     shown: the newest picture.
     """

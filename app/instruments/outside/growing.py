@@ -1,10 +1,10 @@
 """The key formula as it grows: the viewing ray of a pixel, term by term, head to tail. Pure.
 
-Perspective: -d **w**, u **u** and v **v** lead from the eye to the pixel's centre; their sum is the
-direction. Parallel: the direction is -**w**, and the origin slides over the viewport by u **u** and
-v **v**. A lens has no such formula: its camera is drawn without one.
+In perspective, -d **w**, u **u** and v **v** lead from the eye to the pixel's centre; their sum is
+the direction. In parallel projection, the direction is -**w**, and the origin slides over the
+viewport by u **u** and v **v**. A lens has no such formula: its camera is drawn without one.
 
-A position counts stages: 2.5 is half of the third one.
+A position counts stages: 2.5 is halfway through the third one.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from .frustum import image_point, on_ray
 from .pixel_drawing import pixel_square
 from .simple_camera import simple_ray
 
-GROWS = 0.7  # of a stage's time; then it rests, for the class to look
-ENDS = (r"\text{origin}", r"\text{direction}")  # a ray's, as a lecture may write them
-# What a stage adds to a formula of the probe or of the lecture.
+GROWS = 0.7  # the growing share of a stage's time; the class can look in the rest
+ENDS = (r"\text{origin}", r"\text{direction}")  # names of a ray's parts that a lecture may write
+# The part that a stage adds to a formula of the probe or of the lecture.
 _LIT = {
     "pixel": "(i, j)",
     "centre": "u, v",
@@ -52,7 +52,7 @@ class Term(NamedTuple):
 
 
 def stage_at(position: float | None, camera: Camera) -> str:
-    """Return the last stage that has begun at a position; "" if nothing is to be pointed out."""
+    """Return the last stage that has begun at a position; "" if nothing is highlighted."""
     if position is None or position >= len(STAGES) or camera.lens is not None:
         return ""
     return STAGES[max(math.ceil(position) - 1, 0)]
@@ -73,7 +73,7 @@ def lit_in(formula: str, stage: str) -> str:
 
 
 def stage_shares(position: float) -> dict[str, float]:
-    """Return the drawn part of each stage: it begins and ends slowly."""
+    """Return the drawn share of each stage, with a slow start and a slow end."""
     part = {stage: min(max((position - n) / GROWS, 0.0), 1.0) for n, stage in enumerate(STAGES)}
     return {stage: share * share * (3 - 2 * share) for stage, share in part.items()}
 
@@ -131,7 +131,7 @@ def grown_diagram(content: Content) -> list[Item]:
 
 
 def _thin_basis(items: Iterable[Item]) -> list[Item]:
-    """Return items with a thinner basis, next to the terms along it."""
+    """Return the items with a thinner basis, because terms lie along it."""
     return [
         replace(item, width=1.6, head=9.0)
         if isinstance(item, Arrow) and item.name in ("u", "v", "w")
@@ -196,12 +196,12 @@ def _with_numbers(items: Iterable[Item], content: Content, pixel: Pixel) -> list
 
 
 def _turning(content: Content, pixel: Pixel, share: float) -> list[Item]:
-    """Return the formula on its way from perspective to parallel.
+    """Return the formula in transition from perspective to parallel.
 
     The viewport moves back to the eye, and u **u** and v **v** with it. Each ray still goes through
     its pixel: its origin slides away from the eye, and its direction turns to -**w**.
 
-    content: without the marked pixel's ray. share: of the way, more than 0.
+    content: a content without the marked pixel's ray. share: the share of the transition, above 0.
     """
     camera, size = content.camera, content.size
     eye, (u, v, w) = np.asarray(camera.eye, float), camera.basis.T

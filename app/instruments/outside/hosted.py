@@ -1,4 +1,4 @@
-"""The outside view's guest: what another instrument does in it, see app/ui/guest.py."""
+"""The outside view's guest, which acts in it for another instrument; see app/ui/guest.py."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from .mouse import Scope
 
 
 class Hosted:
-    """view: the name of the view. guest: set by itself; None: there is none."""
+    """The guest of one view. view: the view's name. guest: set by the guest itself, or None."""
 
     def __init__(self, view: str) -> None:
         self._view = view
         self.guest: Guest | None = None
-        self._took_double = False  # whose release is no click
+        self._took_double = False  # a double-click's release is not a click
 
     @property
     def holds(self) -> bool:
@@ -38,7 +38,7 @@ class Hosted:
     ) -> bool:
         """Offer the guest a click on the current item. Return True if it took the click.
 
-        clicked: the button was released. number: the object under the mouse.
+        clicked: True if the button was released. number: the object under the mouse.
         """
         left = imgui.MouseButton_.left
         double = imgui.is_item_activated() and imgui.is_mouse_double_clicked(left)

@@ -15,13 +15,13 @@ from .frustum import image_point, point_at
 from .pixel_drawing import pixel_square
 
 APART_PX = 22.0  # a pixel and its ideal point are named if they are farther apart on the screen
-STEEPEST_DEG = 80.0  # from the axis: rays that are steeper meet the image plane too far away
+STEEPEST_DEG = 80.0  # steeper rays meet the image plane too far from the axis
 OUTSIDE = "outside of the lens"
 
 
 def lens_pixel(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
-    """Return the way from where a pixel is in the image to where its ray meets the image plane, if
-    it does. A pixel outside of the lens is only named so.
+    """Return the line from a pixel's place in the image to the point where its ray meets the image
+    plane, if it does. A pixel outside the lens gets only a label.
     """
     x, y = camera.image_point(*pixel, size)
     distorted, along, w = image_point(camera, x, y), camera.direction(x, y), np.asarray(camera.w)

@@ -1,7 +1,7 @@
 """The camera of the outside view, its reach, and the width of its lines.
 
-Makes the camera that sees everything and those along the world's axes, and chooses whose ray is
-drawn.
+The module also makes the camera that sees everything and those along the world's axes, and selects
+the pixel whose ray is drawn.
 """
 
 from __future__ import annotations
@@ -31,29 +31,31 @@ from .mouse import Area, Scope
 from .screen import NEAREST, OutsideScreen
 
 NOTHING = np.zeros((0, 3))
-STILL_S = 0.25  # without a change of the other camera, before the view follows it
+STILL_S = 0.25  # the view follows the other camera after it has been still for so long
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
 
 
 class Scopes:
-    """The view of the present frame, computed again only if it must change.
+    """The view of the current frame, recomputed only if it must change.
 
     moves: True if the other camera has just moved.
     """
 
     def __init__(self) -> None:
         self._fixed: tuple[object, ...] | None = None
-        self._inner: Camera | None = None  # of the scope
-        self._seen: Camera | None = None  # in the frame before
+        self._inner: Camera | None = None  # the other camera of the scope
+        self._seen: Camera | None = None  # the other camera in the previous frame
         self._changed_s = 0.0
         self._scope: Scope | None = None
         self._is_in_picture = Memo(is_in_picture)
         self.moves = False
 
     def of(self, host: Host, area: Area, more: Floats, now_s: float, held: bool = False) -> Scope:
-        """Return scope_of(). While the other camera moves within sight, an outside camera that is
-        not the user's own stays where it is. held: a mouse button is; a pause ends no drag.
+        """Return scope_of(), but keep an outside camera that is not the user's own where it is
+        while the other camera moves within sight.
+
+        held: True while a mouse button is held, so that a pause does not end the drag.
         """
         both, state = host.renderers, host.state
         place = (area.size, *area.origin, *area.extent)
@@ -120,7 +122,7 @@ def nearest(camera: Camera, scope: Scope) -> float:
 def units_px(extent: ImVec2) -> tuple[float, float]:
     """Return the width of a line and the size of symbols in a view of this extent."""
     symbol_px = framebuffer_scale() * min(theme.px(1), min(extent.x, extent.y) / ROOMY_PX)
-    # In presentation mode lines are thick, but the picture is not made of them.
+    # Presentation mode thickens lines, but they must not dominate the picture.
     return (theme.line_px(framebuffer_scale()) + symbol_px) / 2, symbol_px
 
 
@@ -139,7 +141,7 @@ def ray_ends(
 ) -> tuple[RayEnd | None, list[RayEnd]]:
     """Return the marked pixel's ray and the bundle's, with their ends as far as they are known.
 
-    others: views that draw the rays of the pixels that they point out.
+    others: views that draw the rays of the pixels that they highlight.
     """
     both, state = host.renderers, host.state
     options = state.options.outside
@@ -162,9 +164,9 @@ def ray_ends(
 def ray_depths(
     about: tuple[Camera, Size, tuple[Pixel, ...]], painter: RayPainter
 ) -> dict[Pixel, float]:
-    """Return where rays end; inf if they hit nothing, or are outside of the lens.
+    """Return the t at which each ray ends; inf if it hits nothing or is outside the lens.
 
-    about: their camera, its size, their pixels.
+    about: the camera, its image size, the rays' pixels.
     """
     camera, size, pixels = about
     i, j = np.array(pixels).T
@@ -186,7 +188,7 @@ def _ray_pixel(host: Host, others: Container[str]) -> Pixel | None:
 
 def _points(host: Host, more: Floats) -> Floats:
     """Return points around everything in sight: the scene, the camera, its place in the scene's
-    file, and more.
+    file, and `more`.
     """
     home = host.state.scene.view.for_size(host.renderers.size)
     points, arrow = np.concatenate([host.focus.framed, more]), arrow_length(host.focus.reach)

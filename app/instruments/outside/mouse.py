@@ -1,7 +1,7 @@
-"""The mouse over the outside view: it moves the outside camera as it moves the others.
+"""The mouse over the outside view, which moves the outside camera as it moves the others.
 
-It turns about and drags the middle of everything in sight, whose distance is known without reading
-an image back.
+The camera turns about the middle of everything in sight, and a drag moves that middle: its distance
+is known without reading an image back.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ STILL_PX = 4.0  # a press that moves less is a click
 
 
 class Area(NamedTuple):
-    """The view's place: its size in pixels; its upper left corner and its size in ImGui's
+    """The view's area: its size in pixels; its upper left corner and its size in ImGui's
     coordinates.
     """
 
@@ -38,7 +38,7 @@ class Area(NamedTuple):
 
     @property
     def far(self) -> ImVec2:
-        """The lower right corner."""
+        """Return the lower right corner."""
         return self.origin + self.extent
 
 
@@ -46,8 +46,8 @@ class Area(NamedTuple):
 class Scope:
     """The view in a frame.
 
-    camera: the outside camera. shown: the same, fitted to the view. center, reach: of everything in
-    sight, world space.
+    camera: the outside camera. shown: the same, fitted to the view. center, reach: the centre and
+    reach of everything in sight, world space.
     """
 
     camera: Camera
@@ -120,7 +120,7 @@ class Mouse:
         if not imgui.is_item_active():
             self._grab = None
             return camera
-        if camera != grab.latest:  # by a key: continue from there
+        if camera != grab.latest:  # moved by a key: continue from there
             self._grab = self._begin(scope, grab.kind, mouse)
             return camera
         still = math.dist(grab.start, (mouse.x, mouse.y)) < STILL_PX

@@ -1,4 +1,4 @@
-"""A projected diagram as the rasterizer's overlay takes it, in the theme's colours.
+"""A projected diagram as layers of the rasterizer's overlay, in the theme's colours.
 
 This module defines the colour of each role.
 """
@@ -31,8 +31,8 @@ from .figure import Color
 from .projected import Primitive, Shape, Strokes, Text
 
 DARK_GROUND = 0.35  # the lightest channel of a scene's dark background
-RIM: Rgb = (0.19, 0.19, 0.19)  # that of a label over white; others are darker
-PALEST = 0.45  # a line that is paler has no casing, which would be all one sees of it
+RIM: Rgb = (0.19, 0.19, 0.19)  # the rim of a label over white; other rims are darker
+PALEST = 0.45  # paler lines have no casing, which would dominate them
 
 FIXED: dict[Role, ImVec4] = {
     "plane": theme.rgb("#f2f5f8"),
@@ -45,7 +45,7 @@ FIXED: dict[Role, ImVec4] = {
     "pose": theme.rgb("#dccba6"),
 }
 
-# On a light ground without a picture behind.
+# Colours on a light ground without a picture behind.
 DARKER: dict[Role, ImVec4] = {
     "plane": theme.rgb("#2f3943"),
     "volume": theme.rgb("#45607c"),
@@ -61,8 +61,8 @@ Rgba = tuple[float, float, float, float]
 
 
 def role_color(role: Role, ground: Rgb | None = None) -> ImVec4:
-    """Return the colour of a role in the current theme. ground: the colour under it; None: a
-    panel.
+    """Return the colour of a role in the current theme. ground: the colour under it; None
+    for a panel.
     """
     if role in theme.BASIS or role == "other":
         basis = theme.BASIS
@@ -135,7 +135,7 @@ def _segments(part: Strokes, color: Callable[[Role, float, float], Rgba]) -> np.
 
 
 def _corners(part: Shape, color: Callable[[Role, float, float], Rgba]) -> np.ndarray:
-    """Return the corners of a polygon's triangles, which have its first corner in common."""
+    """Return the corners of a polygon's triangles, which share its first corner."""
     second = np.arange(1, len(part.points) - 1)
     fan = np.stack([0 * second, second, second + 1], axis=1).ravel()
     rows = np.zeros(len(fan), CORNER)

@@ -17,11 +17,11 @@ from .figure import RIM, WHITE, Color, Figure, Label, Line, Picture, Polygon, da
 
 Point = tuple[float, float]
 Box = tuple[Point, Point]  # upper left and lower right corner
-THINNEST_PX = 1.0  # of lines on the screen
+THINNEST_PX = 1.0  # the least width of a line on the screen
 
 
 class Painter:
-    """Paints figures with ImGui. uploads: the textures of their pictures."""
+    """A painter of figures with ImGui. uploads: the textures of their pictures."""
 
     def __init__(self, draw: imgui.ImDrawList, fonts: Fonts, uploads: Uploads) -> None:
         self._draw, self._fonts, self._uploads = draw, fonts, uploads
@@ -31,8 +31,8 @@ class Painter:
     ) -> None:
         """Draw a figure between two corners of the screen.
 
-        origin, scale: the page's point p is at origin + scale * p. path: distinguishes the
-        pictures of figures inside each other.
+        origin, scale: the page's point p is at origin + scale * p. path: a prefix that
+        distinguishes the pictures of nested figures.
         """
         ground = packed(figure.ground or WHITE)
         self._draw.push_clip_rect(ImVec2(*low), ImVec2(*high), True)
@@ -70,9 +70,9 @@ class Painter:
         self._draw.pop_clip_rect()
 
     def _picture(self, name: str, part: Picture, box: Box, seen: Box) -> None:
-        """Draw the visible part of a picture, pixel by pixel of the screen: ImGui would smooth it.
+        """Draw the visible part of a picture by screen pixels, because ImGui would smooth it.
 
-        box: of the whole picture on the screen. seen: of its visible part.
+        box: the whole picture's place on the screen. seen: its visible part.
         """
         px = framebuffer_scale()
         low, high = (np.round(np.array(corner) * px) / px for corner in seen)
@@ -87,7 +87,7 @@ class Painter:
         self._draw.add_image(imgui.ImTextureRef(texture.glo), ImVec2(*low), ImVec2(*high))
 
     def _label(self, part: Label, at: Point, scale: float, ground: int) -> None:
-        # A whole size: ImGui scales others from the next whole one.
+        # Use a whole size: ImGui scales other sizes from the next whole one.
         size = max(1, round(part.size * scale))
         pieces = measured(part.text, part.strong, size, self._fonts, part.mono)
         x, y = at[0] - part.align * sum(piece[2] for piece in pieces), at[1] - size / 2
@@ -98,7 +98,7 @@ class Painter:
 
 
 def _within(box: Box, other: Box) -> Box:
-    """Return what two boxes have in common."""
+    """Return the intersection of two boxes."""
     (left, top), (right, bottom) = box
     (first, highest), (last, lowest) = other
     return (max(left, first), max(top, highest)), (min(right, last), min(bottom, lowest))
@@ -137,6 +137,6 @@ def rimmed_text(
 
 
 def packed(color: Color, opacity: float = 1.0) -> int:
-    """Return a colour as ImGui packs it."""
+    """Return a colour in ImGui's packed form."""
     red, green, blue, alpha = (round(255 * min(max(v, 0.0), 1.0)) for v in (*color, opacity))
     return red | green << 8 | blue << 16 | alpha << 24

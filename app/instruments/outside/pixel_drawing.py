@@ -29,8 +29,8 @@ def pixel_numbers(
 ) -> list[Item]:
     """Return the numbers of rows, at the left of the image plane, and of columns, above it.
 
-    base: the number of the first ones. step: the least from one number to the next. Larger images
-    than MOST_NUMBERED have only the first, the last and the marked pixel numbered.
+    base: the number of the first row and column. step: the least step between numbers. Only the
+    first, the last and the marked pixel have numbers in images larger than MOST_NUMBERED.
     """
     left, _, _, top = camera.viewport
     items: list[Item] = []

@@ -16,14 +16,15 @@ from lucida.renderer.camera.intrinsics import PixelOrigin
 from .diagram import Arrow, Dot, Item, Label, line
 from .frustum import image_point, plane_corners
 
-MOST_TICKS = 32  # of a side
+MOST_TICKS = 32  # per side
 
 
 def pixel_items(camera: Camera, size: Size, origin: PixelOrigin) -> tuple[Item, ...]:
-    """Return the focal length, the principal point, the pixels' coordinates and the
-    corners; nothing of a parallel camera.
+    """Return the focal length, the principal point, the pixels' coordinates and the corners, or
+    nothing for a parallel camera.
 
-    camera: fitted to its image of `size`. origin: where whole numbers are.
+    camera: the camera, fitted to its image of `size`. origin: the point of a pixel that has whole
+    coordinates.
     """
     if camera.is_parallel:
         return ()

@@ -1,7 +1,7 @@
 """Places for the labels of the outside view: next to their points, where they cover nothing.
 
-Each label takes the best of a few places around its point, one after another; places of the picture
-before are kept as long as they are good, so that labels do not jump while the view turns. Pure.
+Each label in turn takes the best of a few places around its point. Places from the previous picture
+are kept while they are good, so that labels do not jump while the view turns. Pure.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ from .projected import Primitive, Shape, Strokes, Text
 
 Spot = tuple[float, float]
 Sums = NDArray[np.float32]
-Label = tuple[str, str, int]  # name, role, how many before it have both
+Label = tuple[str, str, int]  # name, role, number of earlier labels with both
 
-# Places: turned away from the label's own direction, and farther out in heights of the text.
+# Places: turns from the label's own direction, and distances in heights of the text.
 TURNS = np.radians([0, 30, -30, 60, -60, 90, -90, 120, -120, 150, -150, 180])
 FARTHER = (0.0, 0.8, 1.8)
-# What a place costs: for half a turn, for a height farther out, outside the view,
-# on another label, on a mark, for a height of a line in the text.
+# Costs of a place: half a turn, a height farther out, outside the view,
+# on another label, on a mark, a line through the text, per height of the text.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED = 1.2, 0.8, 60.0, 40.0, 18.0, 3.0
-CELL = 0.15  # of the grid, in heights of a text
-DOT = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)  # of its radius
-# Places along a line, as many as turns: shares of its length, on both sides of it; and what it
-# costs to be on the other side, and away from the middle.
+CELL = 0.15  # the size of a grid cell, in heights of a text
+DOT = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)  # times the radius
+# Places along a line, as many as turns: shares of its length, on both sides of it; and the costs of
+# the other side, and of the distance from the middle.
 SHARES = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2])
 OTHER_SIDE, SLID = 0.4, 1.0
-ALONG = 1.5  # the space between a text and its line, in that to a point: arrows have wide heads
-JUMP_PX = 60.0  # a point that has moved farther since the picture before has jumped
-KEPT = 1.0  # by which another place must be better than the present one
+ALONG = 1.5  # space to a line, relative to that to a point: arrows have wide heads
+JUMP_PX = 60.0  # a point that has moved farther since the previous picture has jumped
+KEPT = 1.0  # the advantage that another place must have over the current one
 SPACE = 0.12  # around a text, in its heights
 
 
@@ -50,7 +50,7 @@ class Box:
 
 @dataclass
 class LabelPlacer:
-    """Places the labels of one view. Its memory are the places of the picture before."""
+    """A placer of one view's labels, which remembers their places in the previous picture."""
 
     _chosen: dict[Label, tuple[Spot, int]] = field(default_factory=dict)
     _size: tuple[float, float] = (0.0, 0.0)
@@ -63,7 +63,7 @@ class LabelPlacer:
     ) -> list[Spot]:
         """Return the centres of the texts among the primitives, in their order.
 
-        boxes: of those texts. size: of the view.
+        boxes: the boxes of those texts. size: the view's size.
         """
         if size != self._size:
             self._chosen, self._size = {}, size
@@ -78,7 +78,7 @@ class LabelPlacer:
         wide = np.array([(box.width, box.height) for box in boxes]) / 2
         wide += SPACE * np.array([[box.height] for box in boxes])
         around = np.concatenate([places - wide[:, None], places + wide[:, None]], axis=2)
-        areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all of one size
+        areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all have one size
         inside = _overlap(around, np.array([(0.0, 0.0, *size)]))[..., 0] / areas
         costs = preferences + OUTSIDE * (1 - inside)
         height = max(box.height for box in boxes)
@@ -95,7 +95,7 @@ class LabelPlacer:
             self._chosen[label] = text.at, best
             x, y = places[number, best].tolist()
             (far_x, far_y), (wide_x, wide_y) = size, wide[number].tolist()
-            if 0 < text.at[0] < far_x and 0 < text.at[1] < far_y:  # of a point in sight
+            if 0 < text.at[0] < far_x and 0 < text.at[1] < far_y:  # its point is in sight
                 x = min(max(x, wide_x), max(far_x - wide_x, wide_x))
                 y = min(max(y, wide_y), max(far_y - wide_y, wide_y))
             centers[number] = x, y
@@ -103,7 +103,7 @@ class LabelPlacer:
         return centers
 
     def _is_moving(self, labels: Sequence[Label], texts: Sequence[Text]) -> bool:
-        """Return True if the view moves smoothly: otherwise the places of before mean nothing."""
+        """Return True if the view moves smoothly; otherwise the previous places are useless."""
         ways = [
             math.dist(self._chosen[label][0], text.at)
             for label, text in zip(labels, texts, strict=True)
@@ -119,8 +119,8 @@ def _labels(texts: Sequence[Text]) -> list[Label]:
 
 
 def _places(text: Text, box: Box) -> tuple[Floats, Floats]:
-    """Return the centres of a label's places (n, 2), and what they cost, (n,): the text's box
-    touches a circle around the point from outside, or a line.
+    """Return the centres of a label's places (n, 2), and their costs (n,). The text's box touches a
+    circle around the point from outside, or a line.
     """
     if text.line is None or not (way := text.line[1] - text.line[0]).any():
         starts, room = np.array([text.at]), box.room
@@ -142,8 +142,8 @@ def _places(text: Text, box: Box) -> tuple[Floats, Floats]:
 
 
 def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, float]) -> Sums:
-    """Return what labels should not cover, summed over all cells of a grid above and left of each
-    cell's corner (Crow 1984): lines, by their lengths in heights of a text, dots, and heads.
+    """Return a summed-area table (Crow 1984) of everything that labels should not cover: lines, by
+    their lengths in heights of a text, dots, and arrowheads.
     """
     strokes = [part for part in primitives if isinstance(part, Strokes)]
     ends = np.concatenate([np.zeros((0, 2, 2)), *(part.points for part in strokes)])
@@ -174,7 +174,7 @@ def _sums(primitives: Iterable[Primitive], height: float, size: tuple[float, flo
 
 
 def _covered(boxes: Floats, sums: Sums) -> Sums:
-    """Return the sum of what is in boxes (..., 4), in cells, and in the cells that they touch."""
+    """Return the sums over all cells that boxes (..., 4), in cells, touch."""
     most = np.array(sums.shape[::-1] * 2) - 1
     edges = np.concatenate([np.floor(boxes[..., :2]), np.ceil(boxes[..., 2:])], axis=-1)
     left, top, right, bottom = np.moveaxis(np.clip(edges, 0, most).astype(int), -1, 0)
@@ -183,7 +183,7 @@ def _covered(boxes: Floats, sums: Sums) -> Sums:
 
 
 def _overlap(boxes: Floats, others: Floats) -> Floats:
-    """Return the common areas of boxes (..., 4) and others (m, 4), (..., m)."""
+    """Return the areas (..., m) that boxes (..., 4) share with others (m, 4)."""
     left, top, right, bottom = (boxes[..., side, None] for side in range(4))
     wide = np.minimum(right, others[:, 2]) - np.maximum(left, others[:, 0])
     high = np.minimum(bottom, others[:, 3]) - np.maximum(top, others[:, 1])

@@ -1,4 +1,4 @@
-"""A diagram on the screen: each of its items clipped and projected by the outside camera.
+"""A diagram on the screen: its items, clipped and projected by the outside camera.
 
 Painting and SVG both start from these primitives, which have no colours yet. Pure. Positions and
 depths are as in screen.py.
@@ -17,7 +17,7 @@ from lucida.renderer.camera.checks import Floats
 from .diagram import Arrow, Dot, Eye, Face, Item, Label, Role, Segments, polyline
 from .screen import OutsideScreen
 
-CIRCLE = 28  # corners of what is round
+CIRCLE = 28  # corners of a round shape
 HEAD = 4.2  # the least length of an arrow's head, in widths of its shaft
 _ANGLES = np.arange(CIRCLE)[:, None] * (2 * math.pi / CIRCLE)
 _COSINES, _SINES = np.cos(_ANGLES), np.sin(_ANGLES)
@@ -25,7 +25,7 @@ _AXES = np.eye(3)
 
 
 class Strokes(NamedTuple):
-    """Segments of one kind. A segment of no length is a disc.
+    """Segments of one kind. A segment of zero length is a disc.
 
     points (n, 2, 2). depth (n, 2). before (n,): the length of the line before each, in pixels.
     """
@@ -59,9 +59,9 @@ class Shape(NamedTuple):
 
 
 class Text(NamedTuple):
-    """A text next to a point. toward: the unit direction from `at` to the text. strong: bold.
-    fixed: in that direction only. line: the ends (2, 2) of a line that the text may be along. lit:
-    see Label.
+    """A text next to a point. toward: the unit direction from `at` to the text. strong: True for
+    bold. fixed: True to keep that direction. line: the ends (2, 2) of a line that the text may be
+    along. lit: see Label.
     """
 
     name: str
@@ -79,8 +79,8 @@ Primitive = Strokes | Shape | Text
 
 
 def project(items: Iterable[Item], screen: OutsideScreen) -> list[Primitive]:
-    """Project items in their order, without the invisible ones. Among arrows, those whose tip is
-    nearer come later, and so cover the others.
+    """Project the visible items in their order. Arrows with nearer tips come later, and so cover
+    the others.
     """
     items, out = list(items), list[Primitive]()
     arrows = [item for item in items if isinstance(item, Arrow)]
@@ -145,7 +145,7 @@ def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
     if tip.visible:
         axis = (end - start) / length
         size = screen.symbol_px * screen.px_world(float(tip.spots[2]))
-        wide = HEAD * item.width * screen.unit_px / screen.symbol_px  # of thick lines
+        wide = HEAD * item.width * screen.unit_px / screen.symbol_px  # for thick lines
         head = min(max(item.head, wide) * size, 0.45 * length)
         end = end - head * axis
         base = screen.seen(end + 0.36 * head * _circle(axis))
@@ -175,9 +175,9 @@ def _filled(
 
 
 def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
-    """Return a white ball of constant size on the screen, with iris and pupil where it looks.
+    """Return a white ball of constant size on the screen, with iris and pupil along its gaze.
 
-    Each is left out where the ball's edge would cut it: seen from the side it would be a wedge.
+    Each is left out if the ball's edge would cut it: seen from the side it would be a wedge.
     """
     out = _disc(Dot("eye", "eye", item.point, item.radius, layer=item.layer), screen)
     viewer = screen.toward_viewer(np.asarray(item.point, float))

@@ -1,4 +1,4 @@
-"""Drawings of viewing rays that a lecture builds up: half a line, its meetings with objects, rays
+"""Drawings of viewing rays that a lecture builds up: a half-line, its hits with objects, rays
 to points of the scene. Pure.
 """
 
@@ -17,7 +17,7 @@ from lucida.renderer.camera.image_plane import Size
 from .diagram import Dot, Item, Label, Role, Segments, line, named_dot, shares, term
 from .frustum import on_ray, plane_parameter, point_at
 
-BEFORE, LAST = -1.2, 4.0  # the least and the largest t that is drawn of a line
+BEFORE, LAST = -1.2, 4.0  # the least and the largest t of a line's drawing
 NAMED = 2.5  # the t at which the line's formula is written
 TICKS = (1.0, 2.0, 3.0)
 PALE = 0.35
@@ -25,7 +25,7 @@ WIDTH = 3.0
 
 
 def half_line(camera: Camera, size: Size, pixel: Pixel, grown: float) -> list[Item]:
-    """Return a pixel's ray as half a line.
+    """Return a pixel's ray as a half-line.
 
     grown: the number of complete parts: p, d, the whole line, and the fading of t < 0.
     """
@@ -60,8 +60,8 @@ def meetings(
 ) -> list[Item]:
     """Return a pixel's ray through all objects that its line meets, each with its t.
 
-    found: the t of all meetings, of which some may be negative. grown: 1: all of them have
-    appeared; 2: the least t > 0 is lit, and the ray ends there.
+    found: the t of all intersections, some of which may be negative. grown: 1 once all of them have
+    appeared; 2 once the least t > 0 is highlighted and the ray ends there.
     """
     appeared, lit = shares(grown, 2)
     least, first = min((t for t in found if t > 0), default=end), min([*found, 0.0])
@@ -92,8 +92,8 @@ def meetings(
 def rays_to(camera: Camera, points: Sequence[Point], grown: float, reach: float) -> list[Item]:
     """Return the viewing rays of points of the world, and where they pass the image plane.
 
-    grown: 1: the rays have reached their points; 2: the dots on the image plane, too. reach: how
-    far behind the image plane a parallel ray is drawn, world units.
+    grown: 1 once the rays have reached their points; 2 once the dots are on the image plane, too.
+    reach: the length of a parallel ray behind the image plane, world units.
     """
     rays, dots = shares(grown, 2)
     if not (points and rays):

@@ -1,7 +1,7 @@
-"""The screen of the outside camera: from the world to pixels, clipped to the visible part.
+"""The screen of the outside camera: projection from the world to pixels, with clipping.
 
-The projection is float64. Pure. Positions are in pixels from the upper left corner, x right, y
-down. Depths are s: 1 / t in perspective, t in parallel projection, which are affine on the screen.
+The projection is float64. Pure. Positions are in pixels from the upper left corner, x to the right,
+y down. Depths are s: 1 / t in perspective, t in parallel projection. s is affine on the screen.
 """
 
 from __future__ import annotations
@@ -20,13 +20,14 @@ from lucida.renderer.raster.overlay import Plane, plane_on_screen
 from .frustum import plane_corners
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off
-NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to the scene
+NEAREST = 1e-4  # the least distance to the outside camera, relative to that of the scene
 
 
 class Seen(NamedTuple):
     """Points on the screen.
 
-    spots (..., 4): see homogeneous(). points (..., 2), depth (...): see on_screen(). visible (...).
+    spots (..., 4): see homogeneous(). points (..., 2), depth (...): see on_screen(). visible (...):
+    True for visible points.
     """
 
     spots: Floats
@@ -99,10 +100,10 @@ class OutsideScreen:
         return self.on_screen(cut_polygon(spots, self._planes))
 
     def seen(self, world: Floats) -> Seen:
-        """Project points (..., 3). Of the invisible ones, only `spots` mean something."""
+        """Project points (..., 3). Only `spots` is meaningful for invisible ones."""
         spots = self.homogeneous(world)
         with np.errstate(all="ignore"):
-            visible = (spots @ self._planes.T >= 0).all(axis=-1)  # of NaN, nothing is
+            visible = (spots @ self._planes.T >= 0).all(axis=-1)  # NaN is never visible
             return Seen(spots, *self.on_screen(spots), visible)
 
     def px_world(self, t: float) -> float:
@@ -146,7 +147,7 @@ def cut_segments(segments: Floats, planes: Floats) -> tuple[Floats, NDArray[np.i
     kept = np.flatnonzero((low <= high) & ~((start < 0) & (end < 0)).any(axis=1)).astype(np.int64)
     segments, low, high = segments[kept], low[kept, None], high[kept, None]
     along = segments[:, 1] - segments[:, 0]
-    # An end that is not cut keeps its very numbers: lines are joined by them.
+    # An end that is not cut keeps its exact numbers, by which lines are joined.
     last = np.where(high == 1, segments[:, 1], segments[:, 0] + high * along)
     return np.stack([segments[:, 0] + low * along, last], axis=1), kept
 

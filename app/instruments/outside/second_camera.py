@@ -1,7 +1,8 @@
-"""A second camera in the outside view: one that somebody wrote, dashed.
+"""A second camera in the outside view, dashed: that of a student's program.
 
-Draws its frustum, first pixel and ray. It is defined by rays, not by a Camera, because a wrong
-program's rays may belong to no camera at all, such as one with a singular basis. Pure.
+The module draws its frustum, first pixel and ray. The camera is defined by rays, not by a Camera,
+because a wrong program's rays may belong to no camera at all, such as one with a singular basis.
+Pure.
 """
 
 from __future__ import annotations
@@ -14,14 +15,16 @@ from lucida.renderer.camera.checks import Floats
 
 from .diagram import Dot, Face, Item, Label, RayEnd, Role, Segments, line, polyline
 
-SAME = 1e-6  # of the reach: origins that are nearer to one another are one eye
+SAME = 1e-6  # times the reach: origins that are nearer to one another are one eye
 ROLE: Role = "other"
 
 
 @dataclass(frozen=True, eq=False)
 class GivenRay:
-    """origin, direction: (3,). t: of its hit; inf where it meets nothing, None where that is not
-    known."""
+    """A ray of a program.
+
+    origin, direction: (3,). t: the t of its hit; inf if it hits nothing, None if that is not known.
+    """
 
     origin: Floats
     direction: Floats
@@ -29,8 +32,10 @@ class GivenRay:
 
 
 def corner_rays(origins: Floats, directions: Floats) -> tuple[Floats, Floats]:
-    """Return the corner pixels' rays of rays (H, W, 3), (4, 3) each: upper left, upper right, lower
-    right, lower left as that camera's image has them.
+    """Return the origins and directions (4, 3) of the corner pixels' rays: upper left, upper right,
+    lower right, lower left in that camera's image.
+
+    origins, directions: (H, W, 3).
     """
     rows, columns = [0, 0, -1, -1], [0, -1, -1, 0]
     return origins[rows, columns], directions[rows, columns]
@@ -42,7 +47,7 @@ def second_camera(
     """Return a camera's drawing if its rays are finite.
 
     origins, directions: from corner_rays(). reach: the length of the drawn rays, world units.
-    name: of the camera. first: of its first pixel.
+    name: the camera's label. first: the label of its first pixel.
     """
     length = np.linalg.norm(directions, axis=1).mean()
     if not np.isfinite(origins).all() or not np.isfinite(length) or length == 0:
@@ -71,7 +76,7 @@ def second_camera(
 
 
 def second_ray(ray: GivenRay, reach: float) -> list[Item]:
-    """Return the ray to its hit, or as long as `reach`. Nothing if it is none."""
+    """Return the ray to its hit, or with the length `reach`; nothing if it has no direction."""
     length = float(np.linalg.norm(ray.direction))
     if not np.isfinite(ray.origin).all() or not np.isfinite(length) or length == 0:
         return []

@@ -18,10 +18,10 @@ AXES = 0.55  # the length of the world's axes, in distances of the image plane
 
 
 def simple_camera(camera: Camera, grown: float, measured: bool) -> list[Item]:
-    """Return what makes the simple camera.
+    """Return the drawing of the simple camera.
 
-    grown: the number of complete facts: the eye's place, where it looks, its viewport, the
-    viewport's sides, the distance. measured: with the world's axes and the lengths of the sides.
+    grown: the number of complete facts: the eye's place, its direction, its viewport, the
+    viewport's sides, the distance. measured: True to add the world's axes and the sides' lengths.
     """
     place, gaze, window, sides, distance = shares(grown, 5)
     eye, (u, v, w) = np.asarray(camera.eye, float), camera.basis.T
@@ -57,7 +57,7 @@ def simple_camera(camera: Camera, grown: float, measured: bool) -> list[Item]:
 
 
 def _measure(name: str, start: Floats, way: Floats, share: float, middle: Floats) -> list[Item]:
-    """Return a line of measure with its length, as far as it has grown."""
+    """Return a dimension line with its length, as far as it has grown."""
     line, text = np.array([start, start + share * way]), number(float(np.linalg.norm(way)))
     return [
         Segments(name, "extra", line[None], 3.0, layer=3),
@@ -71,8 +71,8 @@ def simple_ray(
 ) -> list[Item]:
     """Return a pixel's u and v on the viewport, and its ray's direction.
 
-    base: the number of the first row and column. grown: the complete parts: the pixel, u and v, the
-    direction. numbers: in place of letters.
+    base: the number of the first row and column. grown: the number of complete parts: the
+    pixel, u and v, the direction. numbers: True to write numbers in place of letters.
     """
     filled, across, ahead = shares(grown, 3)
     eye, v = np.asarray(camera.eye, float), camera.basis[:, 1]

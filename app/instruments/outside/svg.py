@@ -1,7 +1,7 @@
-"""Write a figure as an SVG file: self-contained, the scene as a PNG, letters as text.
+"""Write a figure as a self-contained SVG file, with the scene as a PNG and letters as text.
 
-The same figure makes the same bytes. Source: SVG 1.1 (W3C, second edition); `data-name` is from
-SVG 2.
+The same figure always yields the same bytes. Source: SVG 1.1 (W3C, second edition); `data-name` is
+from SVG 2.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from .figure import DASHES, RIM, WHITE, Color, Figure, Inset, Label, Line, Part,
 
 FONTS = "Roboto, Helvetica, Arial, narrowed, sans-serif"  # narrowed: in lecture.css
 MONO = "Roboto Mono, Consolas, Menlo, monospace"
-MONO_WIDTH = 0.5  # of a letter, in parts of its size
+MONO_WIDTH = 0.5  # a letter's width, relative to its size
 ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 BLACK = (0.0, 0.0, 0.0)
-CASING, PALEST = 2.0, 0.45  # it is wider than a line by so many units; paler lines have none
-BASELINE = 0.35  # below a line's middle, in parts of the font's size
+CASING, PALEST = 2.0, 0.45  # a casing's extra width, in units; paler lines have none
+BASELINE = 0.35  # below a line's middle, relative to the font's size
 
 
 def png_address(pixels: Bytes) -> str:
-    """Return pixels as the address of a PNG."""
+    """Return the data URL of a PNG with these pixels."""
     file = io.BytesIO()
     Image.fromarray(pixels).save(file, "PNG")
     return f"data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}"
@@ -106,8 +106,8 @@ def _element(
 
 
 def casing_of(part: Line, figure: Figure) -> tuple[Color, float, float] | None:
-    """Return the colour, the opacity and the width of what separates a line from the scene and from
-    other lines; None for a line without.
+    """Return the colour, the opacity and the width of a line's casing, which separates it from the
+    scene and from other lines; None if it has none.
     """
     is_pale = part.dashed or part.opacity < PALEST or part.width <= figure.unit
     if is_pale or figure.image is None:

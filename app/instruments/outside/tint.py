@@ -1,6 +1,6 @@
-"""The handles in the colours of the basis, and without ImGuizmo's text: it has no setting for them.
+"""Colour the handles like the basis and hide their text, for which ImGuizmo has no settings.
 
-Owns the exchange of colours in what was drawn. Knows nothing of handles and of cameras.
+The module replaces colours in vertices that were drawn. It knows nothing of handles and cameras.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from lucida.app.ui.contrast import Rgb
 
 Rgb8 = tuple[int, int, int]  # 0..255
 
-# ImGuizmo's own: of the axes x, y, z, and of the handle under the mouse. They come with several
-# opacities, which stay.
+# ImGuizmo's own colours of the axes x, y, z, and of the handle under the mouse. They come with
+# several opacities, which are kept.
 AXES: dict[str, Rgb8] = {"u": (170, 0, 0), "v": (0, 170, 0), "w": (0, 0, 170)}
 HELD: Rgb8 = (255, 128, 16)  # almost the colour of u
-SHADOW = np.uint32(0xFF000000)  # black: of the text alone, which is drawn over it
+SHADOW = np.uint32(0xFF000000)  # black, which only the shadow of the text has
 
 
 def handle_colors(ground: Rgb) -> dict[Rgb8, ImVec4]:
@@ -33,9 +33,9 @@ def handle_colors(ground: Rgb) -> dict[Rgb8, ImVec4]:
 
 
 def repaint(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb8, ImVec4]) -> None:
-    """Exchange colours in all vertices of a draw list from `first` on, whose opacities stay. Hide
-    the text that ImGuizmo wrote last, which calls the basis x, y and z: the letters of its shadow,
-    and as many after them.
+    """Replace colours, but not opacities, in all vertices of a draw list from `first` on. Hide
+    ImGuizmo's last text, which calls the basis x, y and z: the letters of its shadow, and as many
+    letters after them.
     """
     packed = vertex_colors(draw)[first:]
     rgb = packed & 0xFFFFFF
@@ -50,7 +50,7 @@ def repaint(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb8, ImVec4]) -
 
 def vertex_colors(draw: imgui.ImDrawList) -> NDArray[np.uint32]:
     """Return the colours of a draw list's vertices in place, (n,), opacity in the highest byte.
-    Valid until something more is drawn.
+    They are valid until something more is drawn.
     """
     count, size = draw.vtx_buffer.size(), imgui.VERTEX_SIZE
     if not count:

@@ -24,12 +24,12 @@ from .placing import Box, LabelPlacer
 from .projected import Primitive, Text
 
 MENU = "Instruments/In the outside view"
-PAD = 6  # around the menu's button
-GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # of the axes
+PAD = 6  # pixels around the menu's button
+GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # the axes' brightness
 
 
 def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> None:
-    """Draw the menu and the axes into the view's window. actions: of the menu."""
+    """Draw the menu and the axes into the view's window. actions: the menu's actions."""
     pad, origin = theme.px(PAD), scope.origin
     imgui.set_cursor_screen_pos(ImVec2(origin.x + pad, origin.y + pad))
     if imgui.button("Show##outside"):
@@ -42,8 +42,8 @@ def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> None:
 
 
 def draw_axes(camera: Camera, origin: ImVec2, extent: ImVec2) -> None:
-    """Draw the world's axes in the upper right corner, as the camera sees them, in gray: colours
-    are for the basis. A view that is narrower than they are has none.
+    """Draw the world's axes in the upper right corner, as the camera sees them, in gray, because
+    colours belong to the basis. A view that is narrower than the axes has none.
     """
     side, radius, ball = theme.px(TRIAD_PX), theme.px(30), theme.px(9.5)
     if extent.x < 2 * side:
@@ -63,12 +63,12 @@ def draw_axes(camera: Camera, origin: ImVec2, extent: ImVec2) -> None:
         draw.add_text(at, theme.u32(theme.rgb("#101215")), name)
 
 
-STRONG = 1.5  # the size of names that teach, in sizes of the type
+STRONG = 1.5  # the size of strong labels, relative to the type's
 
 
 class Written(NamedTuple):
     """A label in its place. at: its upper left corner in the view, in ImGui's pixels. pieces: see
-    measured(). lit: on the ground of a formula's term that is pointed out.
+    measured(). lit: True to highlight it like its term in the formula.
     """
 
     role: Role

@@ -1,6 +1,6 @@
 """The outside view: the scene and the camera in it, seen by a second, free camera.
 
-It keeps its picture from frame to frame. renderer/raster/overlay.py draws.
+It keeps its picture from frame to frame. renderer/raster/overlay.py draws the picture.
 """
 
 from __future__ import annotations
@@ -57,14 +57,14 @@ from .screen import OutsideScreen, image_plane
 from .tools import draw_labels, use_tools, written
 
 OUTSIDE = "Outside"
-TURN_RAD = 0.05  # of an arrow key
-SMALLEST_PX = 24  # a view that is smaller shows nothing
-GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
-NUMBER_SPACE = 1.1  # the least distance of pixels' numbers, in sizes of the type
+TURN_RAD = 0.05  # per arrow key
+SMALLEST_PX = 24  # a smaller view shows nothing
+GRID_PX = 7.0  # the least distance between grid lines, in widths of a line
+NUMBER_SPACE = 1.1  # the least distance between pixels' numbers, in sizes of the type
 
 
 class Tools(NamedTuple):
-    """Hold the parts of the view that need a context. layer: the cloud's picture."""
+    """The parts of the view that need an OpenGL context. layer: the cloud's renderer."""
 
     overlay: Overlay
     ground: Ground
@@ -95,7 +95,7 @@ class OutsideView(Instrument):
         self._mouse, self._gizmo = Mouse(), Gizmo()
         self.tools: Tools | None = None
         self.hosted = Hosted(self.name)
-        self._over = False  # whether the mouse is over the picture
+        self._over = False  # True if the mouse is over the picture
         self._made: Drawing | None = None
         self._scopes, self._placer = Scopes(), LabelPlacer()
         self.extensions = Extensions()
@@ -167,7 +167,7 @@ class OutsideView(Instrument):
         )
 
     def look(self, host: Host, camera: Camera | None) -> None:
-        """Look through a camera; None: through one that sees everything."""
+        """Look through a camera, or through one that sees everything if it is None."""
         host.travel(self.with_own_camera(host.state, camera))
 
     def object_under(self, host: Host) -> int | None:
@@ -178,7 +178,7 @@ class OutsideView(Instrument):
     def draw(self, host: Host) -> None:
         size = available_px()
         if min(size) < SMALLEST_PX:
-            self.unseen(host)  # nobody waits for what is not drawn
+            self.unseen(host)  # a hidden picture must not be waited for
             return
         host.renderers.need_size(host.state.images)
         area = Area.of(size, imgui.get_cursor_screen_pos())
@@ -212,7 +212,7 @@ class OutsideView(Instrument):
         imgui.set_cursor_screen_pos(scope.origin)
         self._over = False
         if self.hosted.holds or (self._gizmo.over and host.state.options.outside.gizmo != "none"):
-            imgui.dummy(scope.extent)  # ImGuizmo takes no click where an item is under the mouse
+            imgui.dummy(scope.extent)  # ImGuizmo ignores clicks over an item
             return
         buttons = imgui.ButtonFlags_
         imgui.set_next_item_allow_overlap()
@@ -250,7 +250,7 @@ class OutsideView(Instrument):
         return pixel_seen(both.camera(state), both.size, *ray)
 
     def _picture(self, host: Host, scope: Scope) -> Drawing:
-        """Return the present picture; the last one if nothing has changed."""
+        """Return the current picture, which is the last one if nothing has changed."""
         both, state, tools, extensions = host.renderers, host.state, self.tools, self.extensions
         assert tools is not None
         assert both.textures is not None
@@ -321,8 +321,8 @@ def _drawn(
 ) -> Drawing:
     """Draw the view's picture.
 
-    number: identifies what else it shows: the content of the picture on the image plane, the
-    display transform, the theme.
+    number: identifies its other inputs: the content of the picture on the image plane, the display
+    transform, the theme.
     """
     camera, size, scene = ground.request.camera, ground.request.size, ground.request.scene
     screen = OutsideScreen(camera, size, near, *units)

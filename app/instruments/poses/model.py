@@ -1,4 +1,4 @@
-"""A set of cameras: their names, frusta and points for the outside view, the way through them.
+"""A set of cameras: their names, frusta and points for the outside view, the path through them.
 
 These are computed once per set. Pure; slow functions are called on a thread.
 """
@@ -27,14 +27,14 @@ from lucida.renderer.scene.model import Scene, View
 
 Floats = NDArray[np.float64]
 
-LINES = 10  # a camera: four edges, four sides of its image, two for which way is up
+LINES = 10  # per camera: four edges, four sides of its image, two to mark up
 CURVE = 4  # parts of a side that a lens bends
-UP = 0.28  # the height of the mark for that, in parts of the image's
-INLIERS = (1.0, 99.0)  # percent of points between which a reconstruction is; the rest are strays
-LOOKED_AT = 50_000  # points, for that
-SEED = 7  # of the order in which points are drawn
+UP = 0.28  # the height of the mark for up, relative to the image's
+INLIERS = (1.0, 99.0)  # percentiles that bound a reconstruction; points outside are strays
+LOOKED_AT = 50_000  # points that are examined for that
+SEED = 7  # for the order in which points are drawn
 PLAIN = 150  # gray of points without colours
-CORNERS = np.array(list(np.ndindex(2, 2, 2)), bool)  # of a box: True for the higher side
+CORNERS = np.array(list(np.ndindex(2, 2, 2)), bool)  # a box's corners: True for the higher side
 NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
 # A frustum's length, relative to the cameras' extent: shorter if there are many.
 SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
@@ -44,10 +44,10 @@ SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
 class PoseSet:
     """A set of cameras.
 
-    path: of its file or folder.
-    origins, ways: (n, 4 parts, 3), the starts of the rays through the image's corners, and between
-    them if there is a lens, and their directions, equally long: from the upper left to the right.
-    points, colors: of a reconstruction, as Cloud has them.
+    path: its file or folder.
+    origins, ways: (n, 4 parts, 3), the origins and the equally long directions of the rays through
+    the image's corners, and between them if there is a lens, from the upper left to the right.
+    points, colors: a reconstruction's points, as in Cloud.
     low, high: (3,), a box around the cameras and most of the points.
     told: notes on the set, a phrase each.
     """
@@ -66,22 +66,22 @@ class PoseSet:
 
     @property
     def origin(self) -> Floats:
-        """The origin of positions in float32."""
+        """Return the origin of positions in float32."""
         return (self.low + self.high) / 2
 
     @property
     def parts(self) -> int:
-        """The parts of a side of the images, which lenses bend; 1 for straight sides."""
+        """Return the number of parts of an image's side, which lenses bend; 1 if it is straight."""
         return self.ways.shape[1] // 4
 
     @property
     def lines(self) -> int:
-        """The lines of a camera."""
+        """Return the number of lines of a camera."""
         return LINES + 4 * (self.parts - 1)
 
     @property
     def length(self) -> float:
-        """A length of frusta that suits the set, world units."""
+        """Return a length of frusta that suits the set, world units."""
         eyes = self.origins.mean(axis=1)
         reach = float(np.linalg.norm(np.ptp(eyes, axis=0))) / 2
         reach = reach or float(np.linalg.norm(self.high - self.low)) / 2 or 1.0
@@ -89,8 +89,8 @@ class PoseSet:
 
     @property
     def up(self) -> Floats:
-        """The direction that is up in most of the images, a unit vector; (0, 1, 0) if they do not
-        agree.
+        """Return the direction that is up in most of the images, a unit vector; (0, 1, 0) if they
+        do not agree.
 
         Reconstructions are often upside down.
         """
@@ -101,18 +101,18 @@ class PoseSet:
 
     @property
     def folder(self) -> Path:
-        """The base of relative paths in it."""
+        """Return the base of relative paths in the set."""
         return self.path if self.path.is_dir() else self.path.parent
 
     @property
     def title(self) -> str:
-        """The file's name. A folder's includes its parent, because many are called 0."""
+        """Return the file's name; a folder's includes its parent, because many are called 0."""
         path = self.path
         return f"{path.parent.name}/{path.name}" if not path.suffix else path.name
 
     @property
     def counts(self) -> str:
-        """The numbers of cameras and points, in words."""
+        """Return the numbers of cameras and points, in words."""
         count, points = len(self.names), len(self.points)
         words = f"{count:,} camera{'s' if count != 1 else ''}"
         return words + (f", {points:,} points" if points else "")
@@ -129,7 +129,7 @@ def load_poses(path: Path) -> CameraSet:
 
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:
-    """Prepare a set. Takes some seconds for ten thousand cameras and millions of points."""
+    """Prepare a set. This takes some seconds for ten thousand cameras and millions of points."""
     curved = any(posed.camera.lens is not None for posed in found.cameras)
     rays = [_border_rays(posed.camera, CURVE if curved else 1) for posed in found.cameras]
     origins = np.array([origin for origin, _ in rays], float)
@@ -165,7 +165,7 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
 
 
 def _border_rays(camera: Camera, parts: int) -> tuple[Floats, Floats]:
-    """Return the rays around a camera's image. parts: of a side, 1 for the corners."""
+    """Return the rays around a camera's image. parts: parts per side, 1 for the corners."""
     x, y = border(camera, parts).T
     origins, ends = (point_at(camera, x, y, t) for t in (0.0, 1.0))
     return origins, (ends - origins) / np.linalg.norm(ends - origins, axis=1).mean()
@@ -174,7 +174,7 @@ def _border_rays(camera: Camera, parts: int) -> tuple[Floats, Floats]:
 def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
     """Return the names without their common folder. Unnamed cameras have their numbers."""
     names = [posed.name or posed.image or str(n) for n, posed in enumerate(cameras)]
-    first, last = min(names), max(names)  # what these share, all do
+    first, last = min(names), max(names)  # a prefix that these share is shared by all
     pairs = enumerate(zip(first, last, strict=False))
     shared = next((place for place, (one, other) in pairs if one != other), len(first))
     start = first.rfind("/", 0, shared) + 1
@@ -192,7 +192,7 @@ def frusta(
     ends = origins + poses.length * poses.ways[numbers]
     corners, at = ends[:, :: poses.parts], poses.parts // 2
     middle_top, middle_bottom = (corners[:, ::2] + corners[:, 1::2]).swapaxes(0, 1) / 2
-    if at:  # of a curve
+    if at:  # a curve
         middle_top, middle_bottom = ends[:, at], ends[:, 2 * poses.parts + at]
     tip = middle_top + UP * (middle_top - middle_bottom)
     nexts = np.roll(ends, -1, axis=1)
@@ -219,8 +219,8 @@ def cloud(poses: PoseSet, with_points: bool) -> Cloud:
 
 
 def with_set(state: AppState, poses: PoseSet, scene: Scene | None) -> AppState:
-    """Return the state with a set. scene: seen by the set's first camera; None for the present
-    one, with its camera.
+    """Return the state with a set. scene: the scene to view with the set's first camera; None to
+    keep the current scene and camera.
     """
     file = stored(str(poses.path))
     if scene is None:

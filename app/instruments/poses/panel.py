@@ -1,6 +1,6 @@
 """The panel of the view "Poses": the set and its commands, its list, the photograph.
 
-Takes values and returns requests.
+Its functions take values and return requests.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ INVITATION = (
     " or a COLMAP model's folder, such as sparse/0. Each becomes a frustum in the outside view."
 )
 LAY = "on the images"
-LAY_TOLD = "each pose's photograph over both images, as they are walked (Image > Photograph)"
+LAY_TOLD = "each pose's photograph over both images, as you step through (Image > Photograph)"
 LISTED = imgui.ChildFlags_.borders | imgui.ChildFlags_.nav_flattened
-PHOTO_PART = 0.45  # of the height, below the list
+PHOTO_PART = 0.45  # the photograph's share of the height, below the list
 
 
 def invitation() -> PoseWish:
@@ -65,7 +65,7 @@ def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish,
     wish = _buttons(
         ("frame", "Frame the set", "the outside view sees all of its cameras and points"),
         ("open", "Open...", "another set"),
-        ("close", "Close", "no cameras but the window's own"),
+        ("close", "Close", "close the set; the camera stays"),
     )
     aligned = "the points as each camera sees them: they should line up with the photograph"
     if len(poses.points):
@@ -127,7 +127,7 @@ def rows(poses: PoseSet, chosen: int, scroll: bool) -> int | None:
 
 
 def photograph(texture: moderngl.Texture | None, caption: str, laid: bool | None) -> PoseWish:
-    """Draw the picture as large as it fits, keeping its proportions, above its caption; without a
+    """Draw the picture as large as possible, keeping its proportions, above its caption; without a
     picture, only the caption.
 
     laid: True if it is laid over the images; None if it cannot be.
@@ -151,9 +151,9 @@ def photograph(texture: moderngl.Texture | None, caption: str, laid: bool | None
 
 
 def keys() -> PoseWish:
-    """Return what the keys ask for while the current window has them.
+    """Return the request of a pressed key while the current window has the focus.
 
-    They are taken from ImGui's navigation, which keeps Tab.
+    The panel takes these keys from ImGui's navigation, which keeps Tab.
     """
     key, focused = imgui.Key, int(imgui.InputFlags_.route_focused)
     repeated = focused | int(imgui.InputFlags_.repeat)

@@ -36,7 +36,7 @@ class Photograph:
 
 
 class Photographs:
-    """Reads photographs on a thread."""
+    """A reader of photographs on a thread."""
 
     def __init__(self) -> None:
         self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs")
@@ -45,7 +45,7 @@ class Photographs:
 
     @property
     def busy(self) -> bool:
-        """True while a picture that is still wanted is to come."""
+        """True while a picture that is still wanted is being read."""
         return self._asked is not None and self._work.busy
 
     def of(self, poses: PoseSet, number: int, dotted: bool = False) -> Photograph | None:
@@ -70,7 +70,7 @@ class Photographs:
         self.want_none()
 
     def want_none(self) -> None:
-        """Wait for no picture any more."""
+        """Stop waiting for pictures."""
         self._asked = None
 
     def close(self) -> None:
@@ -99,8 +99,8 @@ def pictured(poses: PoseSet, number: int, dotted: bool) -> Photograph:
 
 
 def read_photograph(poses: PoseSet, number: int) -> Photograph:
-    """Return a small picture of it, or the reason why there is none. Never raises because of a
-    file.
+    """Return a small picture of a camera's photograph, or the reason why there is none. Never raise
+    because of a file.
     """
     from PIL import Image
 

@@ -1,4 +1,4 @@
-"""Reading files of cameras: recognise them by name, read and prepare them on a thread."""
+"""Read files of cameras: recognise them by name, read and prepare them on a thread."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lucida.renderer.system.errors import LucidaError, describe, one_line
 
 from .model import PoseSet, load_poses, pose_set
 
-# Of files that hold no scene.
+# The endings of files that hold no scene.
 CAMERA_ENDINGS = (".json", ".yml", ".yaml", ".txt", ".bin", ".xml", ".ini")
 _LARGEST_LOOKED_AT = 1 << 20  # bytes of a script, or of a model's table: without meshes it is small
 
@@ -27,7 +27,7 @@ class _Read:
 
 
 class PosesReader:
-    """Reads sets on a thread. problems: by path, one line each."""
+    """A reader of sets on a thread. problems: one line per path."""
 
     def __init__(self) -> None:
         self._work: Background[_Read] = Background("lucida-poses")
@@ -44,11 +44,11 @@ class PosesReader:
         self._keep(str(poses.path), poses)
 
     def of(self, path: str) -> PoseSet | None:
-        """Return the set of a path; None for no path, while it is read, and if that failed."""
+        """Return the set of a path; None without a path, while it is read, and if that failed."""
         outcome = self._work.poll()
         if outcome is not None:
             read = outcome.value
-            if read is None or read.path == self._asked:  # otherwise another one is wanted by now
+            if read is None or read.path == self._asked:  # otherwise another set is wanted by now
                 self._asked = ""
             if read is not None:
                 self._keep(read.path, read.poses, read.problem)
@@ -76,9 +76,9 @@ class PosesReader:
 
 
 def is_cameras(source: str) -> bool:
-    """Return True if a name is that of a file or folder of cameras, never of a scene.
+    """Return True if a source is a file or folder of cameras, not a scene.
 
-    A glTF file is examined: it is one of cameras if it has no mesh.
+    A glTF file is examined: it is a file of cameras if it has no mesh.
     """
     path = Path(source)
     try:
@@ -96,7 +96,7 @@ def _has_no_mesh(model: Given) -> bool:
 
 
 def open_cameras(source: str) -> PoseSet | TakenCamera:
-    """Return a set of cameras, or the only one. Raise LucidaError."""
+    """Return a set of cameras, or its only camera. Raises LucidaError."""
     path = Path(source).absolute()
     found = load_poses(path)
     check_cancelled()

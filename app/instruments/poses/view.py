@@ -1,4 +1,4 @@
-"""The view "Poses": a set of cameras, listed, shown in the outside view, taken one after another.
+"""The view "Poses": a set of cameras, listed, shown in the outside view, visited one after another.
 
 model.py prepares a set, panel.py draws the panel.
 """
@@ -58,17 +58,17 @@ class PosesView(Instrument):
         self._cloud = Memo(cloud)
         self._items = Memo(_outside_items)
         self._upload = Memo(_upload)
-        self._scrolled: int | None = None  # the chosen one that was brought into sight
+        self._scrolled: int | None = None  # the selected one that was last scrolled into view
         self._seen = False
 
     def give(self, window: Host, poses: PoseSet) -> None:
         """Show the set that the state names."""
-        self._reader.give(poses)  # so that nothing waits
+        self._reader.give(poses)  # so that it need not be read again
         window.show_in(POSES, layout.OUTSIDE)
 
     def open(self, window: Host, poses: PoseSet, scene: Scene | None) -> None:
-        """Open a set for the user, with its first camera. scene: to show it in; None for the
-        present one, with its camera.
+        """Open a set for the user, with its first camera. scene: the scene to show it in; None
+        to keep the current scene and camera.
         """
         state = with_set(window.state, poses, scene)
         if scene is not None:
@@ -152,7 +152,7 @@ class PosesView(Instrument):
 
     def take(self, host: Host, number: int) -> None:
         """Move the window's camera to this one by a transition; at once if another transition is
-        under way, as in quick steps.
+        under way, as during quick steps.
         """
         poses = self.poses
         if poses is None or not 0 <= number < len(poses.names):
@@ -163,7 +163,7 @@ class PosesView(Instrument):
         )
         if target.options.photograph.follows:
             target = _photographed(target, poses, number)
-        if before >= 0 and host.travelling:  # to that one, which is a step of its own
+        if before >= 0 and host.travelling:  # arrive there first, as a step of its own
             host.amend(host.state.with_view(poses.view(before)))
             host.change(target)
         else:
@@ -198,8 +198,8 @@ class PosesView(Instrument):
     # The photograph.
 
     def lay(self, host: Host, poses: PoseSet) -> None:
-        """Lay the selected camera's photograph over the images, and then that of each camera taken;
-        or stop that.
+        """Lay the selected camera's photograph over the images, and later that of each camera that
+        is visited; if this is on, turn it off.
         """
         state, chosen = host.state, self.chosen(host.state)
         if state.options.photograph.follows:
@@ -211,7 +211,7 @@ class PosesView(Instrument):
     def _photo(
         self, host: Host, poses: PoseSet, number: int
     ) -> tuple[moderngl.Texture | None, str, bool | None]:
-        """Return the picture, its caption, and whether it is laid over the images."""
+        """Return the picture, its caption, and True if it is laid over the images."""
         assert self._uploads is not None
         dotted = host.state.options.poses.reprojected
         follows = host.state.options.photograph.follows
@@ -247,7 +247,7 @@ def _upload(uploads: Uploads, found: Photograph) -> None:
 
 
 def _outside_items(poses: PoseSet, chosen: int) -> tuple[Item, ...]:
-    """Return the frustum of the chosen camera, distinct from the others, and its name."""
+    """Return the frustum of the selected camera, distinct from the others, and its name."""
     if chosen < 0:
         return ()
     role: Role = "other"

@@ -1,4 +1,4 @@
-"""A few lines of Python on the screen, some of them lit.
+"""A few lines of Python on the screen, some of them highlighted.
 
 Names have the same colours as in the formulas.
 """
@@ -13,15 +13,15 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.ui import theme
 
-LINE = 1.18  # a line's height, in parts of the type's
+LINE = 1.18  # a line's height, relative to the type's
 NAMED = re.compile(r"(\b(?:ray|hit|closest)\b)")
 
 
 def code(lines: Sequence[str], lit: Mapping[int, float], width_px: float) -> None:
     """Draw the lines in the current font.
 
-    lit: for the numbers of the highlighted lines, their opacity; one for the line about to run.
-    width_px: of the highlight.
+    lit: the opacities of highlights, by line number; 1 for the line about to run. width_px: the
+    highlight's width.
     """
     draw, corner = imgui.get_window_draw_list(), imgui.get_cursor_screen_pos()
     letter, line_px = imgui.calc_text_size("0").x, LINE * imgui.get_font_size()
@@ -40,7 +40,7 @@ def code(lines: Sequence[str], lit: Mapping[int, float], width_px: float) -> Non
 
 
 def code_size(lines: Sequence[str]) -> ImVec2:
-    """Return the room that code() needs for the lines, in the current font."""
+    """Return the space that code() needs for the lines, in the current font."""
     width = max(imgui.calc_text_size(line).x for line in lines) + 2.4 * imgui.calc_text_size("0").x
     return ImVec2(width, len(lines) * LINE * imgui.get_font_size())
 

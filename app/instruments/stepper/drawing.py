@@ -1,4 +1,4 @@
-"""A program and the canvas that it fills: as large as the room allows, no line of code wrapped."""
+"""A program and the canvas that it fills, as large as the space allows, without wrapped lines."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ from .code import LINE, code, code_size
 from .source import shown_lines
 
 GAP_EM = 0.9
-MOST_CODE = 0.68  # of the width or height
-LARGEST = 1.5, 1.3, 1.0  # the code's type size, in the window's
-LEAST_WORDS = 0.8  # that of prose, so that a slide need not scroll
+MOST_CODE = 0.68  # the code's largest share of the width or height
+LARGEST = 1.5, 1.3, 1.0  # the code's type sizes, relative to the window's
+LEAST_WORDS = 0.8  # the least size of prose, small enough that a slide need not scroll
 NUMBERED = 12  # the most rows or columns that all have numbers
-Lit = Mapping[int, float]  # for the numbers of lines, the opacity of their highlight
+Lit = Mapping[int, float]  # the opacities of highlights, by line number
 
 
 @dataclass(frozen=True)
 class Drawn:
     """The drawn part of a program.
 
-    in_words: the program is prose.
+    in_words: True if the program is prose.
     """
 
     lines: tuple[str, ...]
@@ -91,11 +91,11 @@ def _julia(lines: tuple[str, ...], indexing: Indexing) -> julia.Loops:
 
 
 def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
-    """Draw a program and its canvas in the middle of a room."""
+    """Draw a program and its canvas in the middle of an area."""
     em, words = imgui.get_font_size(), drawn.in_words
     lines, font = narrowed(drawn.lines), fonts.text if words else fonts.mono
     with lettering(font):
-        needed = code_size(lines) * ImVec2(1.05, 1)  # letters have whole widths in each size
+        needed = code_size(lines) * ImVec2(1.05, 1)  # letter widths are whole pixels in each size
     best = max(
         (
             _arranged(needed, drawn, room, em, *way)
@@ -117,7 +117,7 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
     flags = imgui.WindowFlags_.horizontal_scrollbar
     imgui.begin_child(f"code at {low.x}, {low.y}", best.code_px, 0, flags)
     with lettering(font, best.larger):
-        # In a small window: around the lit line.
+        # In a small window, scroll to the highlighted line.
         lit = max(drawn.lit, default=0) * LINE * imgui.get_font_size()
         imgui.set_scroll_y(max(0.0, lit - 0.5 * best.code_px.y))
         code(lines, drawn.lit, max(best.code_px.x, best.larger * needed.x))
@@ -129,8 +129,9 @@ def draw_program(drawn: Drawn, low: ImVec2, room: ImVec2, fonts: Fonts) -> None:
 class Arranged(NamedTuple):
     """A program and its canvas, side by side or one above the other.
 
-    fits: the code is shown whole. larger: its type size, in the window's. unit: the side of the
-    canvas's pixels. code_px, canvas_px, total_px: the sizes of both, the canvas with its numbers.
+    fits: True if the code is shown whole. larger: its type size, relative to the window's. unit:
+    the side of a canvas pixel. code_px, canvas_px, total_px: the sizes of the code, of the canvas
+    with its numbers, and of both.
     """
 
     beside: bool
@@ -145,7 +146,7 @@ class Arranged(NamedTuple):
 def _arranged(
     needed: ImVec2, drawn: Drawn, room: ImVec2, em: float, beside: bool, largest: float
 ) -> Arranged:
-    """Arrange a program that needs some room, and its canvas."""
+    """Arrange a program, which needs some space, and its canvas."""
     least = LEAST_WORDS if drawn.in_words else 1.0
     most = ImVec2(MOST_CODE * room.x, room.y) if beside else ImVec2(room.x, MOST_CODE * room.y)
     largest = min(most.x / needed.x, most.y / needed.y, largest)
@@ -161,7 +162,7 @@ def _arranged(
 
 
 def _margin(size: Size, em: float) -> ImVec2:
-    """Return the room of the rows' numbers and of the columns'."""
+    """Return the space for the numbers of rows and columns."""
     return ImVec2(0.5 * em * len(str(size[1])) + 0.5 * em, 1.1 * em)
 
 

@@ -1,6 +1,6 @@
-"""Translation to Julia of functions that loop over pixels.
+"""Translation of functions that loop over pixels to Julia.
 
-Julia counts from 1; rows and columns that Python counts from 0 then count from 1 or from 0.
+Julia counts from 1. Rows and columns, which Python counts from 0, are counted from 1 or from 0.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from lucida.renderer.camera.pixels import Indexing
 
 INDENT = "    "
-# How tightly operators bind.
+# Precedences: operators with higher numbers bind more tightly.
 COMPARE, SUM, PRODUCT, SIGN, ATOM = range(5)
 OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
     ast.Add: ("+", SUM),
@@ -25,9 +25,9 @@ OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
 
 
 class _Julia:
-    """Writes expressions, with as few parentheses as possible.
+    """A writer of expressions, with as few parentheses as possible.
 
-    counted: the variables that Python counts from 0, and Julia here as `indexing`.
+    counted: the variables that Python counts from 0, and Julia as `indexing` says.
     """
 
     def __init__(self, counted: frozenset[str], indexing: Indexing) -> None:
@@ -70,7 +70,7 @@ class _Julia:
         return ast.unparse(node), ATOM
 
     def binary(self, left: ast.expr, op: ast.AST, right: ast.expr) -> tuple[str, int]:
-        """Return two operands with the operator between them; associates to the left."""
+        """Return two operands with the operator between them, which associates to the left."""
         sign, binds = OPERATORS[type(op)]
         return f"{self.text(left, binds)} {sign} {self.text(right, binds + 1)}", binds
 
@@ -89,7 +89,7 @@ class Loops:
 
 def loops(python: str, indexing: Indexing = Indexing.LECTURE) -> Loops:
     """Translate a function of loops, without its docstring, to Julia: line by line, with an `end`
-    at the end of each block. Rows and columns that count from 0 then count as `indexing` does.
+    at the end of each block. Rows and columns that count from 0 then count as `indexing` says.
     """
     tree = ast.parse(textwrap.dedent(python)).body[0]
     counted = frozenset(

@@ -102,7 +102,7 @@ class Canvas:
 
 
 def viewing_ray(camera: Camera, x: float, y: float) -> ViewingRay:
-    """The ray through a place on the image plane."""
+    """Return the ray through a place on the image plane."""
     across = scalar.plus(scalar.times(x, camera.u), scalar.times(y, camera.v))
     if camera.is_parallel:
         origin = scalar.plus(camera.eye, across)
@@ -114,7 +114,7 @@ def viewing_ray(camera: Camera, x: float, y: float) -> ViewingRay:
 
 
 def intersect(object: Object, ray: ViewingRay) -> Hit:
-    """The ray's nearest hit with one object, or MISS."""
+    """Return the ray's nearest hit with one object, or MISS."""
     origin, direction, t_min, t_max = ray
     flat = object.index.flat
     if object.sphere >= 0:
@@ -127,7 +127,7 @@ def intersect(object: Object, ray: ViewingRay) -> Hit:
 
 
 def color_at(scene: Model, ray: ViewingRay, hit: Hit) -> Color:
-    """The light that comes along the ray from the hit; the background's for MISS."""
+    """Return the light that comes along the ray from the hit; the background's for MISS."""
     if hit is MISS:
         return scene.background
     point = scalar.point_on(ray.origin, ray.direction, hit.t)
@@ -137,8 +137,8 @@ def color_at(scene: Model, ray: ViewingRay, hit: Hit) -> Color:
 def light_at(
     scene: Model, direction: Vector, point: Vector, where: tuple[int, float, float]
 ) -> Color:
-    """The light that a point sends to who looks along the ray. where: on which triangle or
-    sphere, and its barycentrics b1, b2 there."""
+    """Return the light that a point sends towards the ray's origin. where: the triangle or sphere,
+    and the point's barycentrics b1, b2 on it."""
     flat = scene.flat
     geometric, normal = scalar.normals_at(flat, direction, point, *where)
     return three(scalar.color_at(flat, direction, point, geometric, normal, *where))

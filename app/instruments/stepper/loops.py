@@ -13,7 +13,7 @@ from .raster_parts import box_around, edge, prepared, project, shade, t_of, tria
 
 
 def rasterization(scene, camera, size):
-    """For each triangle, for each pixel of its bounding box."""
+    """Loop over triangles, and over the pixels of each bounding box."""
     canvas, depth = prepared(scene, camera, size)
     for triangle in triangles(scene, camera):
         a, b, c = project(triangle, camera, size)
@@ -34,7 +34,7 @@ def rasterization(scene, camera, size):
 
 
 def image_order(scene, camera, size):
-    """For each pixel, for each object."""
+    """Loop over pixels, and over objects for each."""
     width, height = size
     left, right, bottom, top = camera.viewport
     canvas = Canvas(size)

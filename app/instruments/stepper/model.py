@@ -27,7 +27,7 @@ Wish = Literal["", "back", "step", "pixel", "object"]
 
 
 class Variable(NamedTuple):
-    """A variable. changed: set by the line that has just run."""
+    """A variable. changed: True if the line that has just run set it."""
 
     name: str
     value: Any
@@ -38,10 +38,10 @@ class Variable(NamedTuple):
 class Moment:
     """The state before a step's line runs.
 
-    line: its number in the source. pixel, ray, box (rows, columns), triangle and corners (its own,
-    in the image): None outside the loop that sets them.
+    line: the line's number in the source. pixel, ray, box (rows, columns), triangle and corners
+    (the triangle's, in the image): None outside the loop that sets them.
     canvas: linear light (height, width, 3), NaN where unset.
-    t: of the closest hit so far of the pixel's ray; infinite for none.
+    t: the ray parameter of the pixel's closest hit so far; infinite if there is none.
     """
 
     step: int
@@ -67,7 +67,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
             since[name], now[name] = steps[count - 1], values[count - 1]
 
     def fresh(name: str, body: range, turns: array[int]) -> Any:
-        """Return a variable that was set in the present turn of a loop, or None."""
+        """Return a variable that was set in the current turn of a loop, or None."""
         begun = bisect_right(turns, step)
         is_fresh = line in body and name in since and since[name] >= turns[begun - 1]
         return now[name] if is_fresh else None
@@ -110,13 +110,13 @@ def _canvas(recording: Recording, step: int, now: dict[str, Any]) -> Floats:
     array: Floats = buffer.empty.copy()
     if count := bisect_right(recording.writes, step):
         rows, columns, values = zip(*buffer.log[:count], strict=True)
-        array[rows, columns] = values  # of several writes to a pixel the last one stays
+        array[rows, columns] = values  # the last of several writes to a pixel stays
     return array
 
 
 def describe(value: Any, first: int = 0) -> str:
     """Return a variable's value in a few characters. first: the number of the first row and column,
-    for those that count them.
+    for variables that count them.
     """
     if isinstance(value, range):
         return f"{value.start + first} to {value.stop - 1 + first}" if value else "none"

@@ -1,6 +1,6 @@
 """The loop stepper's controls, and one algorithm: its code, canvas and variables.
 
-Takes states and moments, returns states and wishes.
+Its functions take states and moments, and return states and wishes.
 """
 
 from __future__ import annotations
@@ -26,13 +26,13 @@ from .recording import MOST_STEPS, Recording
 
 CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
 SLIDER_EM = 12.0  # the least width of the slider next to a title
-PROGRAM = 0.68  # of the height
+PROGRAM = 0.68  # the program's share of the height
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 EDGES = ("ea", "eb", "ec")
 
 
 class Step(NamedTuple):
-    """A wish, its button, what it does, and its keys: shown, and as ImGui counts them."""
+    """A wish with its button, its description, and its keys as text and as ImGui's numbers."""
 
     wish: Wish
     button: str
@@ -76,7 +76,7 @@ def controls(state: AppState) -> tuple[AppState, Wish]:
         options = replace(options, canvas=sizes[number], steps=(0, 0))
     follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
     changed, is_julia = checkbox("Julia", state.options.language == "julia")
-    tip("the same lines in Julia; what runs is Python")
+    tip("the same lines in Julia; the code that runs is Python")
     if changed:
         language = replace(state.options, language="julia" if is_julia else "python")
         state = state.with_options(language)
@@ -84,9 +84,9 @@ def controls(state: AppState) -> tuple[AppState, Wish]:
 
 
 def keys() -> Wish:
-    """Return what the keys ask for while the panel has them.
+    """Return the wish of a pressed key while the panel has the focus.
 
-    They are taken from ImGui's navigation, which keeps Tab and Enter.
+    The panel takes these keys from ImGui's navigation, which keeps Tab and Enter.
     """
     flags = int(imgui.InputFlags_.route_focused) | int(imgui.InputFlags_.repeat)
     pressed = [step.wish for step in STEPS if imgui.shortcut(step.chord, flags)]
@@ -98,7 +98,7 @@ def run_panel(
 ) -> int | None:
     """Draw the title, the slider of the step, code, canvas and variables.
 
-    texture: of the canvas. Return the step that the slider asks for.
+    texture: the canvas's texture. Return the step to which the slider was moved, or None.
     """
     imgui.push_font(fonts.bold, 0.0)
     imgui.align_text_to_frame_padding()
@@ -136,7 +136,7 @@ def _variables(variables: tuple[Variable, ...], options: Options, fonts: Fonts) 
     imgui.table_setup_column("", imgui.TableColumnFlags_.width_stretch)
     for shown, (name, value, changed) in zip(names, variables, strict=True):
         text, note, indexing = describe(value), "", options.indexing
-        if name in INDICES:  # as the code next to it
+        if name in INDICES:  # numbered like the code next to it
             text, note = describe(value, indexing.value), indexing.told
         elif name in EDGES:
             note = "inside" if value >= 0 else "outside"

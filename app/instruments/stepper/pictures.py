@@ -33,11 +33,14 @@ from .programs import (
 from .questions import draw_questions
 from .runs import Prepared
 
-TEXT = 0.12  # of the height, above the two loops: for a text that lies over it
+TEXT = 0.12  # share of the height above the two loops: space for an overlaid text
 
 
 class LoopPictures:
-    """hits: of the current scene, found on a thread. wake: called from it when they are found."""
+    """The pictures of one view.
+
+    hits: the current scene's hits, found on a thread. wake: called from it when they are found.
+    """
 
     def __init__(self, canvases: Canvases, wake: Callable[[], None]) -> None:
         self._canvases = canvases
@@ -82,7 +85,7 @@ class LoopPictures:
 
 
 def _places(low: ImVec2, room: ImVec2, count: int) -> list[tuple[ImVec2, ImVec2]]:
-    """Return the places of programs: side by side, or one above the other in an upright room."""
+    """Return the places of programs: side by side, or one above the other in a tall area."""
     gap = imgui.get_font_size()
     across = ImVec2(1, 0) if room.x > room.y else ImVec2(0, 1)
     long = (max(room.x, room.y) - gap * (count - 1)) / count

@@ -1,7 +1,7 @@
 """Programs that a lecture runs: the two loops, ray tracing in three lines, the whole program.
 
 A run is a list of lines in the order in which they are executed, computed from the hits of all
-viewing rays: any of its moments can be shown at once, forwards or backwards. Pure.
+viewing rays, so that any of its moments can be shown at once, forwards or backwards. Pure.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ from lucida.renderer.camera.image_plane import Size
 
 from .loop_parts import Model, ViewingRay, color_at, intersect
 
-GLOW = 0.01  # of a run: the lines that have just been executed shine together
+GLOW = 0.01  # share of a run: the lines executed in it shine together
 # When a line is executed: in each turn of the outer loop, in each turn of the inner one, if the
-# object is the nearest so far, or after the inner loop. Other lines are never lit.
+# object is the nearest so far, or after the inner loop. Other lines are never highlighted.
 When = Literal["", "outer", "inner", "nearer", "after"]
 
 
@@ -95,7 +95,7 @@ class Hits:
     t: (objects, pixels), infinite for a miss; pixels row by row.
     colors: linear light of the nearest of the first k objects, (objects + 1, pixels, 3); NaN if
     there is none.
-    rays: of each pixel.
+    rays: each pixel's viewing ray.
     """
 
     size: Size
@@ -106,7 +106,7 @@ class Hits:
 
     @cached_property
     def nearer(self) -> NDArray[np.bool_]:
-        """For each object and pixel: whether it is nearer than all objects before it."""
+        """Return (objects, pixels): True if an object is nearer than all objects before it."""
         before = np.minimum.accumulate(np.vstack([np.full_like(self.t[:1], math.inf), self.t]))
         return self.t < before[:-1]
 
@@ -119,13 +119,13 @@ def hits_of(model: Model, camera: Camera, size: Size) -> Hits:
         ViewingRay(three(origin), three(direction), *camera.t_range)
         for origin, direction in zip(origins.tolist(), directions.tolist(), strict=True)
     )
-    # Without objects, the loops have one that no ray meets.
+    # Without objects, the loops run over one object that no ray meets.
     t = np.full((max(1, len(model.objects)), count), math.inf)
     colors = np.full((len(t) + 1, count, 3), math.nan)
     for k, thing in enumerate(model.objects):
         colors[k + 1] = colors[k]
         for pixel, ray in enumerate(rays):
-            if math.isnan(ray.direction[0]):  # outside of the lens
+            if math.isnan(ray.direction[0]):  # outside the lens
                 continue
             hit = intersect(thing, ray)
             t[k, pixel] = hit.t
@@ -140,7 +140,7 @@ class LoopMoment:
 
     canvas: linear light (height, width, 3), NaN where nothing was set.
     pixel: the current one; None before the run and after it.
-    lit: for the lines that have just been executed, how brightly they shine, up to 1.
+    lit: the brightness of each line that has just been executed, up to 1.
     """
 
     canvas: Floats
@@ -149,7 +149,7 @@ class LoopMoment:
 
 
 class LoopRun:
-    """A run of a program over all pixels and objects. by_object: objects are the outer loop."""
+    """A run of a program over all pixels and objects. by_object: True if objects are outermost."""
 
     def __init__(self, hits: Hits, lines: tuple[Line, ...], by_object: bool = False) -> None:
         self.hits, self.lines, self.by_object = hits, lines, by_object
@@ -159,7 +159,7 @@ class LoopRun:
         self._line, self._tests = steps[:, 0], steps[:, 1]
 
     def _steps(self) -> list[tuple[int, int]]:
-        """Return each line executed, with the number of tests of an object at a pixel by then."""
+        """Return each executed line, with the number of object-pixel tests up to it."""
         of = {
             when: [n for n, line in enumerate(self.lines) if line.when == when]
             for when in ("outer", "inner", "nearer", "after")
@@ -177,7 +177,7 @@ class LoopRun:
         return steps
 
     def at(self, part: float) -> LoopMoment:
-        """Return the moment when so much of the run is done: 0 before it, 1 after it."""
+        """Return the moment at which that part of the run is done: 0 before it, 1 after it."""
         objects, pixels = self.hits.t.shape
         if part <= 0 or part >= 1:
             return LoopMoment(self._canvas(objects * pixels if part > 0 else 0), None, {})
@@ -195,7 +195,7 @@ class LoopRun:
         return self.lines[self._line[step]].when in ("nearer", "after")
 
     def _canvas(self, tests: int) -> Floats:
-        """Return the canvas after so many tests."""
+        """Return the canvas after that number of tests."""
         objects, pixels = self.hits.t.shape
         at = np.arange(pixels)
         if self.by_object:
@@ -213,5 +213,5 @@ class LoopRun:
 
 
 def run_part(option: float) -> float:
-    """Return how much of a run is done. Each whole number of the option is one more run."""
+    """Return the share of a run that is done. Each whole number of the option is another run."""
     return option if option <= 0 else option - math.ceil(option) + 1

@@ -9,7 +9,7 @@ from lucida.app.ui.canvas import Marks, draw_canvas
 from lucida.renderer.camera.image_plane import Size
 
 # In the unit square, y down: the eye, the frame's corners (near below, near above, far above, far
-# below), a ball, and where a ray passes the frame and meets the ball.
+# below), a ball, and the points where a ray passes the frame and meets the ball.
 EYE = ImVec2(0.04, 0.56)
 FRAME = ImVec2(0.28, 0.84), ImVec2(0.28, 0.24), ImVec2(0.54, 0.12), ImVec2(0.54, 0.64)
 BALL, RADIUS = ImVec2(0.83, 0.42), 0.165
@@ -20,7 +20,7 @@ PLACES = (0.0, 0.0), (1.0, 0.0), (0.5, 1.0)  # the columns and rows of the pictu
 def draw_questions(low: ImVec2, room: ImVec2, texture: int, size: Size, part: float) -> None:
     """Draw as many of the pictures as `part` says, the last one fading in.
 
-    texture: of the image, (width, height) = size.
+    texture: the image's texture, of `size` (width, height).
     """
     gap = imgui.get_font_size()
     side = (min(room.x, room.y) - 3 * gap) / 2
@@ -41,7 +41,7 @@ def draw_questions(low: ImVec2, room: ImVec2, texture: int, size: Size, part: fl
 
 
 def _frame(at: ImVec2, side: float, texture: int | None) -> None:
-    """Draw an eye, a frame and a ball; the image on the frame, or else a ray."""
+    """Draw an eye, a frame and a ball, with the image on the frame or else a ray."""
     draw, width = imgui.get_window_draw_list(), theme.line_px(2.0)
     plain, text = theme.u32(theme.PLAIN), theme.u32(theme.TEXT)
     mark = theme.u32(theme.seen(theme.MARK))

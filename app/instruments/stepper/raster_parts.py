@@ -22,14 +22,14 @@ from lucida.renderer.scene.sampling import are_passed
 
 from .loop_parts import Canvas, Model, Object, color_at, intersect, light_at, viewing_ray
 
-FLAT = 1e-12  # of a triangle's extent: thinner ones are seen edge-on
+FLAT = 1e-12  # times a triangle's extent: thinner ones are seen edge-on
 ROUNDING_PX = 1e-6  # a centre that lies on the edge counts
 WHOLE = np.eye(3)  # the shares of a triangle's own corners
 
 
 class Corner(NamedTuple):
-    """A triangle's corner in the image. z: what is linear there: 1/t in perspective, t in parallel
-    projection."""
+    """A triangle's corner in the image. z: the depth, which is linear there: 1/t in perspective, t
+    in parallel projection."""
 
     x: float
     y: float
@@ -38,10 +38,10 @@ class Corner(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Triangle:
-    """The part of a triangle that is in front of the camera: clipping makes up to two of one.
+    """The part of a triangle that is in front of the camera: clipping may split one into two.
 
     primitive: its number in the flat scene. points (3, 3): its corners, world space. shares (3, 3):
-    of each corner, the weights of the whole triangle's corners, with sum 1.
+    each corner's weights of the whole triangle's corners, with sum 1.
     """
 
     scene: Model
@@ -56,8 +56,8 @@ class Triangle:
         return bool((self.shares == WHOLE).all())
 
     def weights(self, ea: float, eb: float, ec: float) -> Floats:
-        """Return the corners' shares in a point that is given by its edge functions. In perspective
-        the near corners have a smaller share in the point than in its image."""
+        """Return the corners' shares at a point that is given by its edge functions. In perspective
+        the near corners have a smaller share at the point than at its image."""
         shares = np.array([ea, eb, ec])
         if not self.camera.is_parallel:
             shares /= _in_camera(self.points, self.camera)[2]
@@ -70,8 +70,8 @@ class Triangle:
 
 
 def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, Canvas]:
-    """The canvas in the colour of the background, and infinite depths; then what has no triangles:
-    spheres, each pixel by its ray."""
+    """Return a canvas in the colour of the background, and one of infinite depths. Spheres, which
+    have no triangles, are already drawn into both, each pixel by its ray."""
     canvas, depth = Canvas(size, scene.background), Canvas(size, math.inf)
     spheres = [object for object in scene.objects if object.sphere >= 0]
     for i, j in np.ndindex(size[1], size[0] if spheres else 0):
@@ -86,14 +86,14 @@ def prepared(scene: Model, camera: Camera, size: Size) -> tuple[Canvas, Canvas]:
 
 
 def triangles(scene: Model, camera: Camera) -> Iterator[Triangle]:
-    """The scene's triangles, one after another. Of one that reaches behind the eye or before near,
-    the rest comes as one or two triangles."""
+    """Yield the scene's triangles. One that reaches behind the eye or before near is clipped into
+    one or two."""
     for object in scene.objects:
         first = int(scene.flat.object_faces[object.number, 0])
         t = _in_camera(object.vertices, camera)[2][object.faces]
         t_min = camera.t_range[0]
         if not camera.is_parallel:
-            t_min = max(t_min, NEAREST * float(t.max(initial=0.0)))  # where 1/t is still a number
+            t_min = max(t_min, NEAREST * float(t.max(initial=0.0)))  # 1/t must be finite
         is_ahead = t > t_min
         is_whole = is_ahead.all(axis=1).tolist()
         for number in np.flatnonzero(is_ahead.any(axis=1)).tolist():
@@ -120,8 +120,8 @@ def project(triangle: Triangle, camera: Camera, size: Size) -> tuple[Corner, Cor
 
 
 def box_around(a: Corner, b: Corner, c: Corner, size: Size) -> tuple[range, range]:
-    """The rows and columns of the pixels whose centres lie in the triangle's bounding box; none of
-    a triangle that is seen from its edge."""
+    """Return the rows and columns of the pixels whose centres lie in the triangle's bounding box;
+    none if the triangle is seen edge-on."""
     x, y = (a.x, b.x, c.x), (a.y, b.y, c.y)
     extent = max(max(x) - min(x), max(y) - min(y))
     columns = _centres_within(min(x), max(x), size[0])
@@ -132,22 +132,23 @@ def box_around(a: Corner, b: Corner, c: Corner, size: Size) -> tuple[range, rang
 
 
 def _centres_within(low: float, high: float, count: int) -> range:
-    """Return the pixels, of 0 to count - 1, whose centres are between two places."""
+    """Return the pixels, from 0 to count - 1, whose centres are between two places."""
     first = min(max(low - 0.5 - ROUNDING_PX, 0), count)
     end = min(max(high + 0.5 + ROUNDING_PX, 0), count)
     return range(math.ceil(first), math.floor(end))
 
 
 def edge(a: Sequence[float], b: Sequence[float], q: Sequence[float]) -> float:
-    """The edge function: 0 on the line from a to b, of one sign on either side of it. Twice the
-    area of a, b, q. Source: Pineda, "A Parallel Algorithm for Polygon Rasterization", 1988."""
-    # Of b to a it is the same with the other sign, to the last bit: no gap between neighbours.
+    """Return the edge function: twice the area of a, b, q. It is 0 on the line from a to b, and its
+    sign differs on the two sides. Source: Pineda, "A Parallel Algorithm for Polygon
+    Rasterization", 1988."""
+    # The function from b to a is exactly the opposite, so neighbours have no gap between them.
     return (a[0] - q[0]) * (b[1] - q[1]) - (a[1] - q[1]) * (b[0] - q[0])
 
 
 def t_of(z: float, triangle: Triangle, ea: float, eb: float, ec: float) -> float:
-    """Return the ray parameter of a depth z in the image, of the point given by its edge functions;
-    infinite beyond far, in a hole, and on a back that is not seen."""
+    """Return the ray parameter of a depth z in the image, at the point given by its edge functions;
+    infinite beyond far, in a hole, and on an invisible back face."""
     weights, camera = triangle.weights(ea, eb, ec), triangle.camera
     t = z if camera.is_parallel else 1 / z
     passed = are_passed(
@@ -160,7 +161,7 @@ def t_of(z: float, triangle: Triangle, ea: float, eb: float, ec: float) -> float
 
 
 def shade(triangle: Triangle, ea: float, eb: float, ec: float) -> Color:
-    """The light that comes from a point of the triangle, given by its edge functions in the
+    """Return the light that comes from a point of the triangle, given by its edge functions in the
     image."""
     weights = triangle.weights(ea, eb, ec)
     point = weights @ triangle.points
@@ -171,14 +172,14 @@ def shade(triangle: Triangle, ea: float, eb: float, ec: float) -> Color:
 
 def _in_camera(points: Floats, camera: Camera) -> Floats:
     """Return x and y, in units of u and v, and the ray parameter of points (n, 3), as (3, n)."""
-    # A sum of products rounds alike for any n, as a product of matrices need not.
+    # A sum of products rounds alike for any n; a product of matrices need not.
     found: Floats = (camera.camera_from_world[:3, None, :3] * (points - camera.eye)).sum(axis=2)
     found[2] /= -1.0 if camera.is_parallel else -camera.distance
     return found
 
 
 def _clipped(corners: Floats, t_min: float) -> list[Floats]:
-    """Return the part of a polygon beyond t_min. corners (n, m): t is the last number of each.
+    """Return the part of a polygon beyond t_min. corners (n, m): the last number of each is t.
 
     Source: Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974.
     """
@@ -187,7 +188,7 @@ def _clipped(corners: Floats, t_min: float) -> list[Floats]:
         last = corners[k - 1]
         inside, was_inside = here[-1] > t_min, last[-1] > t_min
         if inside != was_inside:
-            # Always from without to within: two triangles with this edge get the same point.
+            # Always from outside to inside, so two triangles with this edge get the same point.
             out, into = (last, here) if inside else (here, last)
             kept.append(out + (t_min - out[-1]) / (into[-1] - out[-1]) * (into - out))
         if inside:

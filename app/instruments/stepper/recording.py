@@ -22,7 +22,7 @@ from .loop_parts import Model
 from .source import source_of
 
 MOST_STEPS = whole_range_of(StepperOptions, "steps")[1]
-# The recorder checks this often whether it is wanted, and sleeps, so that the window gets its turn.
+# The recorder checks is_wanted at this interval, and sleeps, so that the window gets its turn.
 _BREAK_EVERY, _BREAK_S = 1000, 0.0003
 
 
@@ -38,11 +38,11 @@ class Recording:
     size: (width, height). Raises LucidaError if it is out of the canvas's bounds.
     is_wanted: the run ends early if this returns False.
 
-    lines: of each step its line in the source.
-    changes: of each variable, the steps at which it got a value, and the values.
+    lines: the source line of each step.
+    changes: for each variable, the steps at which it got a value, and the values.
     writes: the step of each write in the canvas's log.
     pixel_steps, object_steps: the steps at which the bodies of the two loops begin.
-    truncated: the run was stopped after MOST_STEPS.
+    truncated: True if the run was stopped after MOST_STEPS.
     """
 
     def __init__(

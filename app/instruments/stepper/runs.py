@@ -24,7 +24,7 @@ T = TypeVar("T")
 
 
 class Made(NamedTuple, Generic[T]):
-    """A value, and what it was made of."""
+    """A value and its inputs."""
 
     scene: Scene
     camera: Camera
@@ -33,10 +33,10 @@ class Made(NamedTuple, Generic[T]):
 
 
 class Prepared(Generic[T]):
-    """A value of the current scene, camera and canvas. error: of the last one that was made.
+    """A value of the current scene, camera and canvas. error: the error of the last attempt.
 
-    make: called on a thread, with a function that says whether its value is still wanted. wake:
-    called from the thread when something is finished.
+    make: called on a thread, with a function that returns True while its value is still wanted.
+    wake: called from the thread when something is finished.
     """
 
     def __init__(
@@ -45,7 +45,7 @@ class Prepared(Generic[T]):
         make: Callable[[Model, Camera, Size, Callable[[], bool]], T],
         wake: Callable[[], None],
     ) -> None:
-        self._make, self._model = make, Memo(_model)  # of the thread
+        self._make, self._model = make, Memo(_model)  # for the thread only
         self._background: Background[Made[T]] = Background(name, wake)
         self._wanted: tuple[Scene, Size] | None = None
         self._made: Made[T] | None = None

@@ -1,7 +1,7 @@
 """The loop stepper: both algorithms, line by line, over the window's scene and camera.
 
-The view goes through the recordings, and shows the current step in the outside view. panel.py draws
-a run, model.py computes a step, pictures.py draws what a lecture shows.
+The view steps through the recordings, and shows the current step in the outside view. panel.py
+draws a run, model.py computes a step, pictures.py draws what a lecture shows.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from .runs import Made, Prepared, recordings
 
 STEPPER = "Stepper"
 TITLES = "Object order: rasterization", "Image order: ray tracing"
-LEAST_EM = 18.0  # the width and height of an algorithm; more than there is room for scrolls
+LEAST_EM = 18.0  # the least width and height of an algorithm; a smaller window scrolls
 
 
 class StepperView(Instrument):
@@ -110,7 +110,7 @@ class StepperView(Instrument):
                 self._keep(host, (*steps[:number], step, *steps[number + 1 :]))
 
     def _show_outside(self, host: Host, made: Made[tuple[Recording, ...]]) -> None:
-        """Show the current step there: rays, objects, and the canvas on the image plane."""
+        """Show the current step in the outside view: rays, objects, the canvas."""
         end = end_parameter(made.camera, host.focus.framed)
         is_live = made.camera == host.renderers.camera(host.state)
         picture = self._canvases.get(TITLES[1]) if is_live else None

@@ -80,7 +80,7 @@ def test_a_vector_may_begin_with_a_minus(word):
         ),
         (["--fov=180"], "--fov: 180 is not between 0 and 180; give e.g. 40"),
         (["--fov=nan"], "--fov: nan is not between 0 and 180; give e.g. 40"),
-        (["--fov=40", "--projection=parallel"], "--fov: is nothing that a parallel projection has"),
+        (["--fov=40", "--projection=parallel"], "--fov: does not apply to a parallel projection"),
     ],
 )
 def test_mistakes_name_the_option(words, told):

@@ -85,7 +85,7 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
     broken = Path("o.mp4.frames/000001.png")
     broken.write_bytes(b"")
     status, _, err = animate(*options)
-    assert status == 2 and f"{broken}: is no picture; delete it" in err
+    assert status == 2 and f"{broken}: is not a picture; delete it" in err
     broken.unlink()
     status, out, _ = animate(*options)
     assert status == 0 and "4 of 5 frames are there" in out
