@@ -29,7 +29,7 @@ from lucida.renderer.system.errors import LucidaError
 Number = TypeVar("Number", float, Floats)
 
 LEAST_SLOPE = 1e-4  # the height of the picture over its distance at which rays become parallel
-_PINHOLE = Lens("brown")  # the same as none
+_PINHOLE = Lens("brown")  # equivalent to no lens
 
 
 class Pose(NamedTuple):

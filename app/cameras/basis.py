@@ -63,7 +63,7 @@ class Measures:
 
     lengths: |u|, |v|, |w|. angles_deg: between u and v, v and w, w and u; NaN if one has no length.
     determinant: the volume, negative if they are left-handed; 0 (NaN if numbers are not finite) if
-    they are no basis.
+    they are not a basis.
     """
 
     lengths: Vector

@@ -19,8 +19,8 @@ from lucida.renderer.system.errors import one_line
 from .basis import measures
 from .other_words import of_any_size
 
-LISTED = 3  # cameras in a file, and sizes
-ROUNDING = 1e-14  # of a vector's largest component: less is rounding
+LISTED = 3  # the number of names and sizes that are listed
+ROUNDING = 1e-14  # relative to a vector's largest component: smaller ones are rounding
 ORTHONORMAL = 1e-4  # the largest error of a basis's dot products
 
 Fact = tuple[str, str]  # the name of a quantity, "" if it continues the previous one; its text

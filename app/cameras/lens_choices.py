@@ -29,7 +29,7 @@ class Kind:
 RADIUS = """\
 r' is a point's distance from the middle of the image, in units of d.
 theta is the angle between its direction and the view axis.
-r = tan(theta) is where a pinhole sees it."""
+r = tan(theta) is that distance in a pinhole's image."""
 PANORAMA = """\
 a' and b' are a point's distances to the right and downwards in the image, in units of d.
 Longitude and latitude are the angles of its direction, in radians, from the view axis."""
@@ -116,7 +116,7 @@ class LensPreset:
     panorama: bool = False
 
     def of(self, camera: Camera, aspect: float) -> Camera:
-        """Return the camera with this lens: eye and basis stay. aspect: the image's."""
+        """Return the camera with this lens: eye and basis stay. aspect: the image's ratio."""
         half = (math.pi, math.pi / 2) if self.panorama else (aspect / 2, 0.5)
         return replace(
             camera,

@@ -21,7 +21,7 @@ from lucida.renderer.system.errors import LucidaError
 MOST_CHARACTERS = 4000
 ROUNDED = 5e-3  # error of a rotation that was printed with few digits
 PARALLEL = 1e-3  # sine of the angle between rows that are parallel
-SKEW = 0.05  # of fx: the largest skew in a K that was computed
+SKEW = 0.05  # relative to fx: the largest skew of a computed K
 AXES = {
     "y up, z back (OpenGL)": (1, 1, 1),
     "y down, z forward (OpenCV)": (1, -1, -1),
@@ -132,7 +132,7 @@ def _pixels(rows: Floats) -> View:
 
 
 def _aim(camera: Camera, center: Floats) -> float:
-    """Return the cosine of the angle between the view direction and the way to `center`."""
+    """Return the cosine of the angle between the view direction and the direction to `center`."""
     way, w = center - camera.eye, np.asarray(camera.w)
     return float(-w @ way / max(float(np.linalg.norm(way) * np.linalg.norm(w)), 1e-12))
 

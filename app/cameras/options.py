@@ -21,7 +21,7 @@ CAMERA_OPTIONS = (*CAMERA_FIELDS, "fit", "target", "up", "fov")
 
 
 def numbers(count: int) -> Callable[[str], Any]:
-    """Return a function that reads `count` numbers with commas between them, or one number."""
+    """Return a function that reads a number, or a tuple of `count` numbers between commas."""
 
     def read(text: str) -> Any:
         try:
@@ -72,14 +72,14 @@ def add_camera_options(parser: argparse.ArgumentParser) -> None:
         ("u", three, "the basis: right"),
         ("v", three, "the basis: up"),
         ("w", three, "the basis: back"),
-        ("distance", one | {"metavar": "D"}, "of the viewport, along -w"),
+        ("distance", one | {"metavar": "D"}, "the viewport's, along -w"),
         ("fov", one | {"metavar": "DEG"}, "vertical field of view, instead of the distance"),
         (
             "viewport",
             {"type": numbers(4), "metavar": "L,R,B,T"},
             "left, right, bottom, top, used unchanged",
         ),
-        ("projection", {"choices": projections}, "of the rays"),
+        ("projection", {"choices": projections}, "the rays' projection"),
         ("near", one | {"metavar": "N"}, "clip plane, in units of w"),
         ("far", one | {"metavar": "F"}, "clip plane, in units of w"),
         (

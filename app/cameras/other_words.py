@@ -18,7 +18,7 @@ from lucida.renderer.scene.model import View
 
 TOLD = "A world point p is seen at the pixel (x, y): (x, y, 1) ~ K (R p + t)"
 _DIGITS, _GIVEN_DIGITS = 5, 8
-_TINY = 1e-12  # of a matrix's largest number: less is rounding
+_TINY = 1e-12  # relative to a matrix's largest number: smaller ones are rounding
 
 
 class OtherWords(NamedTuple):

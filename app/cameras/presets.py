@@ -20,7 +20,7 @@ from lucida.renderer.camera.checks import Vector
 from lucida.renderer.scene.model import View
 
 WIDEST = 1.0  # slope up to which a lens counts as a frame: 45 degrees to each side
-MARGIN = 1.1  # of the picture around the framed points
+MARGIN = 1.1  # the picture's size relative to the framed points
 SMALLEST = 1e-9  # smallest extent, relative to the distance to the world's origin
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}

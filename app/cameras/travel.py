@@ -56,7 +56,7 @@ class CameraTransition:
 
     @property
     def gesture(self) -> Hashable:
-        """The key that joins all steps of a transition into one undo step."""
+        """Return the key that joins all steps of a transition into one undo step."""
         return ("passage", self._number)
 
     @property

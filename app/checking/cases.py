@@ -1,7 +1,7 @@
 """Cameras generated from a seed, from the simplest to the most general that the formula allows.
 
-All are well conditioned, so that a correct float32 answer is close to the exact one: angles,
-distances and basis keep away from values at which numbers cancel.
+All are well conditioned, so that a correct float32 answer is close to the exact one: their angles,
+distances and basis avoid values at which numbers cancel.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def point(random: Random, reach: float = 5.0) -> Vector:
 
 
 def camera_kinds(conventions: Conventions) -> tuple[str, ...]:
-    """Return the kinds of cameras that these words can describe."""
+    """Return the kinds of cameras that these conventions can describe."""
     if conventions.needs_rigid:
         return RIGID_KINDS
     if conventions.space == "camera":  # lengths and angles must be the world's
@@ -53,7 +53,7 @@ def camera_kinds(conventions: Conventions) -> tuple[str, ...]:
 
 
 def shots(task: CheckTask) -> Iterator[Shot]:
-    """Yield the task's cameras, kind by kind from the simplest."""
+    """Yield the task's cameras by kind, the simplest first."""
     random = generator(task)
     kinds, conventions = task.cameras, task.conventions
     for number in range(task.count):
@@ -70,7 +70,7 @@ def shots(task: CheckTask) -> Iterator[Shot]:
 
 
 def _size(random: Random) -> Size:
-    """Return a size that is never square, so that exchanging width and height shows."""
+    """Return a size that is never square, to expose exchanged width and height."""
     width, height = random.choice(np.arange(SIDES[0], SIDES[1] + 1), 2, replace=False).tolist()
     return width, height
 

@@ -1,4 +1,4 @@
-"""Checking a task: call the student's code, read its answers, compare them, report the result."""
+"""Check a task: call the student's code, read its answers, compare them, report the result."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ class TaskResult:
     """The result of a task.
 
     cases, wrong: the number of cases, and of wrong ones.
-    first: of the first wrong case, the pixel, the call with its arguments, the correct answer and
-    the given one, in lines.
+    first: lines on the first wrong case: the pixel, the call with its arguments, the correct answer
+    and the given one.
     failure: the reason why the task could not be tried, with the call that led to it.
     output: the text that the student's code printed.
     """
@@ -46,21 +46,21 @@ class TaskResult:
 
     @property
     def points(self) -> float:
-        """The points earned: all, or none."""
+        """The points earned, which are all or none."""
         return self.task.points if self.status == "right" else 0.0
 
     @property
     def verdict(self) -> Status | None:
-        """The status, which the task's feedback may withhold; never that of a failure."""
+        """The status; None if the task's feedback withholds it. A failure is never withheld."""
         withheld = self.task.feedback == "nothing" and self.failure is None
         return None if withheld else self.status
 
     @property
     def lines(self) -> tuple[str, ...]:
-        """All that helps and that the task's feedback allows to report.
+        """All helpful lines that the task's feedback allows.
 
-        The reason for a failure, with the call that led to it, is always included: without it,
-        nobody could correct the code.
+        The reason for a failure, with the call that led to it, is always included, because the code
+        could not be corrected without it.
         """
         if self.failure is not None:
             return one_line(self.failure.text), *failure_lines(self.failure)
@@ -73,7 +73,7 @@ class TaskResult:
 
     @property
     def printed(self) -> str:
-        """The printed text, without what would change the terminal."""
+        """The printed text, without terminal control codes."""
         if self.verdict is None:
             return ""
         return visible(self.output.replace("\r\n", "\n")).rstrip()
@@ -142,7 +142,7 @@ def _diagnosis(
 ) -> Diagnosis | None:
     if task.feedback != "diagnosis":
         return None
-    # Loads the mistakes, so only if there are some.
+    # This loads the mistakes, so import it only if there are any.
     from .mistakes.diagnosis import diagnosis
 
     return diagnosis(task, cases, given, wrong)
@@ -154,7 +154,7 @@ def failed(task: CheckTask, failure: Failure, cases: int = 0, output: str = "") 
 
 
 def status_of(results: Sequence[TaskResult]) -> int:
-    """Return the exit status: 0 all correct, 1 wrong answers, 2 could not be run."""
+    """Return the exit status: 0 if all are correct, 1 for wrong answers, 2 if it could not run."""
     statuses = {result.status for result in results}
     return 2 if "failed" in statuses else int("wrong" in statuses)
 

@@ -1,6 +1,6 @@
 """The words of a task: the arguments that a function may have, and the fields of a camera.
 
-Courses differ in their names and in how they count. Here a convention is data: an argument of a
+Courses differ in their names and their numbering. Here a convention is data: an argument of a
 function or a field of a camera is a word of this table, and its value follows from the camera, the
 pixel and the image's size. docs/checking.md has the table for users.
 """
@@ -38,7 +38,7 @@ class Conventions:
     rows: the edge from which rows are counted; y01 and y11 start there too.
     axes: 1 if x points right in the image, y up and z back; -1 for the opposite direction.
     space: the space of the returned ray.
-    unit: directions must be of length 1.
+    unit: True if directions must be of length 1.
     """
 
     arguments: Named = ()
@@ -60,12 +60,12 @@ class Conventions:
 
     @property
     def needs_rigid(self) -> bool:
-        """True if they can describe only an orthonormal camera with a symmetric viewport."""
+        """True if the words require an orthonormal camera with a symmetric viewport."""
         return not RIGID_WORDS.isdisjoint(self.words)
 
     def explained(self, meaning: str) -> str:
-        """Return a word's meaning in these conventions: first is the number of the first row and
-        column, near the edge where rows begin.
+        """Fill in a word's meaning: `first` is the number of the first row and column, and `near`
+        is the edge from which rows are counted.
         """
         signs = zip(("right", "up", "back"), ("left", "down", "forward"), self.axes, strict=True)
         axes = (
@@ -85,8 +85,8 @@ class Conventions:
 
 @dataclass(frozen=True)
 class Shot:
-    """A camera and an image size, with the target and the up vector that an orthonormal camera
-    follows from.
+    """A camera and an image size, with the target and the up vector that determine an orthonormal
+    camera.
     """
 
     camera: Camera
@@ -107,7 +107,7 @@ RIGID_WORDS |= {word for word in CAMERA_WORDS if word.startswith("fov_")}
 CAMERA = "camera"  # the word for an object with the declared fields
 
 
-@lru_cache(256)  # all pixels of an image have the same
+@lru_cache(256)  # all pixels of an image share them
 def camera_words(camera: Camera, size: Size, axes: tuple[int, int, int]) -> Mapping[str, Any]:
     """Return the values of words that are numbers, vectors (3,) or 4 x 4 matrices."""
     width, height = size
@@ -144,7 +144,7 @@ def camera_words(camera: Camera, size: Size, axes: tuple[int, int, int]) -> Mapp
 
 
 def pixel_words(i: Whole, j: Whole, size: Size, base: int, from_top: bool) -> dict[str, Any]:
-    """Return the values of the words of pixels. i, j: from 0, row 0 at the top."""
+    """Return the values of the pixel words. i, j: from 0, row 0 at the top."""
     width, height = size
     row = i if from_top else height - 1 - i
     x, y = j + 0.5, row + 0.5

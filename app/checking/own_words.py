@@ -29,13 +29,13 @@ _PYTHON = {*dir(builtins), *keyword.kwlist}
 
 
 def shown_name(task: CheckTask, name: str, word: str) -> str:
-    """Return an argument or a field in the task's notation, unless the course has named it."""
+    """Return an argument or a field in the task's notation, or the course's own name for it."""
     return arguments(name, task.notation) if name == word else name
 
 
 def own_names(task: CheckTask) -> dict[str, str]:
-    """Return what each name of the programs is called in the student's function: the task's name
-    for what it passes, and the notation's for what the lines compute.
+    """Return the student's name for each name of the programs: the task's for values that it
+    passes, and the notation's for values that the lines compute.
     """
     computed = {
         node.id
@@ -54,7 +54,7 @@ def own_names(task: CheckTask) -> dict[str, str]:
 
 
 def _given(task: CheckTask) -> Iterator[tuple[str, str]]:
-    """Yield the names of what the task passes, and their texts."""
+    """Yield the names of the values that the task passes, and their texts."""
     for name, word in task.conventions.arguments:
         text = shown_name(task, name, word)
         yield from _parts(word, text)
@@ -72,7 +72,7 @@ def _parts(word: str, text: str) -> Iterator[tuple[str, str]]:
 def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, ...]:
     """Return sentences in the task's names and notation.
 
-    A formula is shown only if the task passes all of its values.
+    A formula is included only if the task passes all of its values.
     """
     own = own_names(task)
     known = _PYTHON | FUNCTIONS.keys() | own.keys()
@@ -87,7 +87,7 @@ def in_the_tasks_words(task: CheckTask, sentences: Sequence[str]) -> tuple[str, 
 
 
 def _in_words(task: CheckTask, own: Mapping[str, str], sentence: str) -> str:
-    """Return a sentence with the task's names in its code, and for a pixel's i and j."""
+    """Replace the names in a sentence's code, and a pixel's i and j, by the task's names."""
 
     def named(found: re.Match[str]) -> str:
         return own.get(found[0]) or program(found[0], task.notation)

@@ -11,13 +11,13 @@ from .checked import TaskResult
 from .own_words import signature
 from .tasks import CheckTask
 
-VERDICTS = {"right": "correct"}  # a status in words, where it is not its own
+VERDICTS = {"right": "correct"}  # words for a status, if they differ from it
 MOST = 8  # printed lines to show on the terminal
 OUTPUT_LETTERS = 4000  # characters of the student's output for Gradescope
 
 
 def summary(tried: Sequence[TaskResult], tasks: Sequence[CheckTask]) -> str:
-    """Return one line on all results; only their number if a verdict is withheld."""
+    """Return one line on all results, or only their number if a verdict is withheld."""
     if any(result.verdict is None for result in tried):
         return f"{len(tried)} {'task was' if len(tried) == 1 else 'tasks were'} tried."
     right = sum(result.status == "right" for result in tried)
@@ -53,11 +53,11 @@ def gradescope(
 
     https://gradescope-autograders.readthedocs.io/en/latest/specs/#output-format
 
-    A test omits what the task's feedback withholds. It is hidden if nothing may be shown.
+    A test omits the details that the task's feedback withholds. It is hidden if nothing is left.
 
     tried: the results that exist.
     tasks: all required tasks. Those without a result failed.
-    problem: the reason if nothing could be run at all.
+    problem: the reason why nothing could be run, or "".
     """
     names = {result.task.name for result in tried}
     tests = [_test(result, "\n".join(result.lines)) for result in tried]

@@ -29,8 +29,8 @@ from .kinds.kind import CheckKind
 from .task_schema import ConventionsTable, TaskFile, TaskTable
 from .tasks import CAMERA_KINDS, MOST_CALLS, WITH_CAMERAS, CheckTask, Limits
 
-# Fields of older files, with the values that still hold. Other values made another task: such a
-# field is unknown.
+# Removed fields, with the values that may be ignored. Other values changed the task, so they are
+# errors.
 REMOVED: dict[str, tuple[Any, ...]] = {
     "vectorised": (True, False),
     "vectors": ("column",),
@@ -47,7 +47,7 @@ NAME = re.compile(r"[^\W\d]\w*")
 
 @dataclass(frozen=True)
 class TaskSet:
-    """The tasks of a file, and its limits. notes: what the file says in vain, in sentences."""
+    """The tasks of a file, and its limits. notes: sentences on ignored parts of the file."""
 
     tasks: tuple[CheckTask, ...]
     limits: Limits
@@ -128,7 +128,7 @@ def _without_removed(tables: dict[str, Any]) -> tuple[str, ...]:
 
 
 def _task(entry: TaskTable, file: TaskFile, base: CheckTask) -> CheckTask:
-    """Return the task of a table. base: its values for what the table leaves out."""
+    """Return the task of a table. base: a task with the default values."""
     kind = KINDS[entry.kind]
     own: dict[str, Any] = {
         "name": entry.name or kind.name,
@@ -157,7 +157,7 @@ def _task(entry: TaskTable, file: TaskFile, base: CheckTask) -> CheckTask:
 
 
 def _text(entry: TaskTable, kind: CheckKind) -> str | None:
-    """Return a description where the built-in one would be wrong."""
+    """Return a description if the built-in one would be wrong."""
     if entry.arguments is None and entry.returns is None:
         return None
     answer = kind.answer if entry.returns is None else ", ".join(entry.returns)
@@ -207,7 +207,7 @@ def _returns(given: list[str] | None, kind: CheckKind) -> tuple[str, ...]:
 
 
 def _check_words(field: str, given: list[str] | dict[str, str], known: Iterable[str]) -> None:
-    """Raise LucidaError if a word is unknown, or if the program's name for one is no name."""
+    """Raise LucidaError if a word is unknown, or if the program's name for it is invalid."""
     if isinstance(given, dict):
         for name, word in given.items():
             _check_name(f"{field}.{name}", name)

@@ -27,7 +27,7 @@ class AxesTable(StrictTable):
 
     @property
     def signs(self) -> tuple[int, int, int]:
-        """1 for x right, y up and z back; -1 for the opposite direction."""
+        """The signs of x, y, z: 1 for right, up and back, -1 for the opposite direction."""
         return (
             1 if self.x == "right" else -1,
             1 if self.y == "up" else -1,
@@ -36,7 +36,8 @@ class AxesTable(StrictTable):
 
 
 class ConventionsTable(StrictTable):
-    """[conventions], for all tasks of the file; each task may override it. None: the contract's.
+    """[conventions], for all tasks of the file. Each task may override a field. None means the
+    contract's value.
 
     camera: the fields of the camera object, name = "word".
     pixels_from: see Conventions.base.
@@ -51,7 +52,7 @@ class ConventionsTable(StrictTable):
 
 
 class TaskTable(ConventionsTable, kw_only=True):
-    """[[tasks]].
+    """A table of [[tasks]].
 
     arguments: words, or name = "word".
     returns: words.
@@ -79,7 +80,7 @@ class TaskFile(StrictTable, kw_only=True):
 
     seconds, memory_mb: limits, unless the command line sets them.
     notation: the symbols of the diagnosis and of arguments that have the names of their words.
-    network: the student's program may connect to other machines; not enforced.
+    network: True if the student's program may connect to other machines; not enforced.
     """
 
     title: str = ""

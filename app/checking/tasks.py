@@ -25,8 +25,8 @@ Kind = Literal["missing", "exception", "time", "memory", "ended", "answer"]
 class Limits:
     """Limits of a run of the student's code.
 
-    seconds: for all calls together, from the program's start.
-    memory_mb: memory of each process, on Linux.
+    seconds: the time of all calls together, from the program's start.
+    memory_mb: the memory of each process, on Linux.
     output: the number of printed characters that are kept.
     """
 
@@ -41,7 +41,7 @@ class Call:
 
     function: its name.
     arguments: names, for messages, and values, in their order.
-    notation: of the names in messages.
+    notation: the notation of the names in messages.
     """
 
     function: str
@@ -67,7 +67,7 @@ class Failure:
 class Run:
     """The results of a run.
 
-    values: for each call, its JSON value or its Failure; shorter than the calls if the run ended
+    values: the JSON value or the Failure of each call; fewer than the calls if the run ended
     early.
     output: the printed text, shortened in the middle.
     failure: the reason why the run ended early, or None.
@@ -90,15 +90,15 @@ MOST_CALLS = 500_000  # per task, limited by memory and patience
 
 @dataclass(frozen=True)
 class CheckTask:
-    """A required function, and how it is checked.
+    """A required function, and the parameters of its check.
 
     kind: a name of kinds.KINDS.
     function: the name of the function.
     part: the lecture's step to read.
     text: the description of the task for students.
-    cameras: the kinds of generated cameras; count of them in total, from the seed.
-    size: of the image; None for a small one for each camera.
-    notation: that of the function's arguments, of the text and of the diagnosis.
+    cameras: the kinds of generated cameras. count: their total number. seed: generates them.
+    size: the image's size; None for a small random one for each camera.
+    notation: the notation of the function's arguments, the text and the diagnosis.
     """
 
     name: str
@@ -124,10 +124,10 @@ class CheckCase:
     arguments: names and values, in the order of the call.
     right, tolerance: the correct answer as an array, and the largest difference from it
     that is still correct, as the kind defines it.
-    values: the values from which it follows, by the task's words.
-    camera, size: for a viewing ray or an image.
+    values: the values that determine it, by the task's words.
+    camera, size: the camera and the image size of a viewing ray or an image.
     pixel: row and column from 0, from the top.
-    target, up: the vectors that an orthonormal camera follows from, if the task passes them.
+    target, up: the vectors that determine an orthonormal camera, if the task passes them.
     """
 
     arguments: tuple[tuple[str, Any], ...]

@@ -12,7 +12,7 @@ Words = Mapping[str, str]
 
 
 class _Kind(msgspec.Struct):
-    """A kind of function. words: its own; groups: those that it shares with other kinds."""
+    """A kind of function. words: its own words. groups: words that it shares with other kinds."""
 
     function: str
     arguments: tuple[str, ...]
@@ -36,7 +36,7 @@ FIRST_CASES = msgspec.toml.decode((Path(__file__).parent / "kinds/first_cases.to
 
 
 def described(name: str) -> dict[str, Any]:
-    """Return what CheckKind needs to know about a kind of function."""
+    """Return CheckKind's arguments for a kind of function."""
     kind = _FILE.kinds[name]
     own = msgspec.structs.asdict(kind) | {"name": name, "words": dict(kind.words)}
     for group in own.pop("groups"):

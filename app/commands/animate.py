@@ -50,7 +50,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     path.add_argument(
         "--dolly-zoom",
         action="store_true",
-        help="back, and longer: the subject keeps its size",
+        help="move back and zoom in: the subject keeps its size",
     )
     path.add_argument(
         "--path", metavar="KEYS", help="through the cameras of this file (docs/animation.md)"

@@ -155,7 +155,7 @@ def check_is_scene(source: str) -> None:
 def own_camera(arguments: argparse.Namespace) -> PosedCamera | None:
     """Return the camera of --view; None without it. Raises LucidaError.
 
-    Sets arguments.size to the image's size: the user's, or else this camera's own.
+    Set arguments.size to the image's size: the user's, or else this camera's own.
     """
     posed = viewed(arguments)
     if arguments.size is None:
@@ -176,7 +176,7 @@ def scene_and_view(
 ) -> tuple[Scene, View]:
     """Return the scene, and the view of --view or else of the scene, with the camera's options.
 
-    Sets arguments.size to the image's size.
+    Set arguments.size to the image's size.
     posed: the result of own_camera().
     """
     from lucida.renderer.files import load_scene
@@ -217,7 +217,7 @@ def progress_bar(label: str) -> Iterator[Callable[[float], None]]:
     """
     from lucida.renderer.system import compile_note
 
-    told = compile_note.note()  # on earlier compilation
+    told = compile_note.note()  # about earlier compilation
     bar = _bar(label) if sys.stderr.isatty() else None
 
     def report(fraction: float) -> None:

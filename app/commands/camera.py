@@ -53,7 +53,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--size",
         type=common.size,
         metavar="WxH",
-        help="the image's, if INPUT has none, or another one: the viewport stays",
+        help="the image's size, if INPUT has none, or another one: the viewport stays",
     )
     parser.add_argument(
         "--pixel-origin",

@@ -103,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.task is not None:
             tasks = [named(tasks, arguments.task)]
         student = _student(arguments, limits)
-        if arguments.json != "-":  # results to find if the student's program ends this process
+        if arguments.json != "-":  # leaves results even if the student's program ends this process
             write(NOT_ENDED)
         try:
             tasks = _possible(arguments, student, tasks)
@@ -183,7 +183,7 @@ def _write_json(
         with atomic_write(path) as file:
             file.write(text.encode())
     except LucidaError:
-        with contextlib.suppress(OSError):  # an earlier check's must not pass for this one's
+        with contextlib.suppress(OSError):  # earlier results must not pass for this check's
             Path(path).unlink()
         raise
 

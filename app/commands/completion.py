@@ -47,6 +47,6 @@ def run(arguments: argparse.Namespace) -> int:
     for command in arguments.commands:
         command.configure(commands.add_parser(command.NAME, help=f"lucida {command.NAME}"))
     print(shtab.complete(parser, arguments.shell))
-    if arguments.shell == "bash":  # complete files in the place of a command, too
+    if arguments.shell == "bash":  # complete files in place of a command, too
         print("complete -o default -F _shtab_lucida lucida")
     return 0

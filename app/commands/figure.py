@@ -51,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--ground",
         choices=get_args(Ground),
         default="white",
-        help="behind it all; shown: as in the window (default: white)",
+        help="the background; shown: as in the window (default: white)",
     )
     parser.add_argument(
         "--scale",
@@ -59,7 +59,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
             lambda scale: least <= scale <= most, f"is not a scale; give {least:g} to {most:g}"
         ),
         default=1.0,
-        help="of lines and letters (default: 1)",
+        help="scale of lines and letters (default: 1)",
     )
     parser.add_argument(
         "--mark", type=_pixel, metavar="ROW,COLUMN", help="a pixel whose ray is shown, from 0"

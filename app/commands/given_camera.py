@@ -50,8 +50,8 @@ def say_notes(found: CameraSet, file: str) -> None:
 
 
 def say_changes(posed: PosedCamera, size: Size | None) -> None:
-    """Report on standard error an image whose aspect ratio is not the camera's own. size: of that
-    image.
+    """Report on standard error if an image's aspect ratio is not the camera's own. size: the
+    image's size.
     """
     own = posed.size
     if size is None or own is None or abs(size[0] - size[1] * own[0] / own[1]) <= 1:

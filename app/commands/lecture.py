@@ -32,11 +32,11 @@ It starts in presentation mode, for a hall: capitals are 1/50 of the window's he
 EPILOG = """\
 in the lecture:
   Page Down, Right    next; ends a movement Page Up, Left       back
-  R                   play the present build again
+  R                   play the current build again
   End                 continue at the step where it was left last time, until you change steps
   Backspace           back to the step's own scene, camera and views
-  Ctrl+Z              takes back changes, then the way to the step
-  F9                  presentation mode off, and on again; the type stays as large
+  Ctrl+Z              undo changes, then the move to the step
+  F9                  presentation mode off and on; the type keeps its size
 A file is read again whenever it is saved. docs/lectures.md describes the format.
 
 examples:

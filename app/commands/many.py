@@ -26,7 +26,7 @@ def add_workers_options(parser: argparse.ArgumentParser, what: str) -> None:
         metavar="N",
         help=f"processes that draw {what}\nside by side (default: 1)",
     )
-    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="of Dask, for a cluster")
+    parser.add_argument("--scheduler", default="", metavar="ADDRESS", help="Dask's, for a cluster")
 
 
 def look_of(arguments: argparse.Namespace) -> Look:

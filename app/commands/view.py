@@ -14,8 +14,8 @@ from .arguments import SCENE_HELP, size
 from .given_camera import add_view_option, viewed
 
 NAME = "view"
-SMALLEST_SIDE = 64  # of the window, in pixels
-LARGEST_SHOWN = 1920 * 1200  # pixels of its images, at the start
+SMALLEST_SIDE = 64  # the least side of the window, in pixels
+LARGEST_SHOWN = 1920 * 1200  # the most pixels of its images at the start
 
 DESCRIPTION = """\
 One camera, two renderers: a rasterizer (object order) and a ray tracer (image order)
@@ -47,7 +47,7 @@ examples:
   lucida rays.py                          your own viewing_ray, its picture next to the correct one
   lucida photo.jpg                        a photograph over the images, for matching a camera
   lucida transforms.json                  the cameras of a data set, or of a COLMAP model's folder
-  lucida --screenshot window.png          draw the window once, save it, leave
+  lucida --screenshot window.png          draw the window once, save it, quit
 
 With no display, lucida draws the window once, saves the picture and says where.
 exit status: 0 done, 2 a mistake or a failure (one line says which), 130 interrupted"""
@@ -57,7 +57,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.description, parser.epilog = DESCRIPTION, EPILOG
     parser.add_argument("scene", nargs="?", metavar="SCENE", help=SCENE_HELP)
     parser.add_argument(
-        "--screenshot", metavar="OUT.png", help="draw the whole window once, save it, leave"
+        "--screenshot", metavar="OUT.png", help="draw the whole window once, save it, quit"
     )
     add_view_option(parser)
     parser.add_argument(
@@ -126,7 +126,7 @@ def run(arguments: argparse.Namespace) -> int:
     posed = viewed(arguments)
     if posed is not None:
         view = View(posed.camera, posed.fit)
-    from lucida.app.window.launch import run_viewer  # loads the window: after the quick checks
+    from lucida.app.window.launch import run_viewer  # after the checks: it loads the window
 
     return run_viewer(
         source,

@@ -27,7 +27,7 @@ def change(before: AppState, after: AppState) -> str:
 
 
 def _scene(before: Scene, after: Scene) -> str:
-    """Return the name of what was added, deleted or edited; of the scene if it is another one."""
+    """Return the name of the added, deleted or edited object, or of the scene if it is another."""
     old = {id(one): one.name for one in before.objects}
     new = {id(one): one.name for one in after.objects}
     gone = [name for key, name in old.items() if key not in new]

@@ -114,11 +114,11 @@ def _session(data: bytes) -> Session:
     try:
         table = msgspec.json.decode(data)
     except (msgspec.DecodeError, UnicodeDecodeError, RecursionError, ValueError) as error:
-        raise LucidaError("", f"is no session: {error}", remedy) from None
+        raise LucidaError("", f"is not a session: {error}", remedy) from None
     check_integers(table, remedy)
     version = table.pop("lucida_session", None) if isinstance(table, dict) else None
     if isinstance(version, bool) or not isinstance(version, int) or version < 1:
-        raise LucidaError("lucida_session", "is missing: this is no session", remedy)
+        raise LucidaError("lucida_session", "is missing: this is not a session", remedy)
     if version > VERSION:
         raise NewerVersionError(
             "lucida_session",
@@ -130,7 +130,7 @@ def _session(data: bytes) -> Session:
     if isinstance(options, dict):
         table["options"], removed = without_removed(options)
         if removed:
-            notes = [f"{OLDER} {len(removed)} of its settings have left (CHANGELOG.md)."]
+            notes = [f"{OLDER} {len(removed)} of its settings were removed (CHANGELOG.md)."]
     table.pop("notes", None)
     if edited := table.pop("edited", None):  # of an earlier version
         table["unsaved"] = text_of_older(edited)

@@ -34,7 +34,7 @@ def settings_file(fresh: bool = False) -> Path | None:
         elif fresh:
             path.replace(path.with_suffix(".before"))
         return path
-    except (OSError, RuntimeError):  # RuntimeError: there is no home
+    except (OSError, RuntimeError):  # RuntimeError: no home folder
         return None
 
 

@@ -1,7 +1,7 @@
 """Background work that must not block the window: one task at a time; a newer request replaces a
 waiting one, or all run in order.
 
-Used for loading scenes and comparing images with them, for example.
+It loads scenes and compares images with them, for example.
 """
 
 from __future__ import annotations

@@ -106,7 +106,7 @@ def _draw_marks(
         frames.append((range(i, i + 1), range(j, j + 1), theme.MARK, 1.0))
     width = min(theme.line_px(2.0), max(1.0, 0.22 * unit))
     for rows, columns, color, grow in frames:
-        if rows and columns:  # a frame that shows on any colour, around pixels that stay visible
+        if rows and columns:  # a frame that is visible on any colour and covers no pixel
             low = corner + ImVec2(columns.start, rows.start) * unit - (grow, grow)
             high = corner + ImVec2(columns.stop, rows.stop) * unit + (grow, grow)
             edge = width + min(2.5, 0.3 * unit)

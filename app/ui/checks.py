@@ -16,7 +16,7 @@ CROSS = (((-0.8, -0.8), (0.8, 0.8)), ((-0.8, 0.8), (0.8, -0.8)))
 
 
 def checkbox(label: str, on: bool) -> tuple[bool, bool]:
-    """Draw ImGui's check box. Return (whether it was clicked, whether it is on)."""
+    """Draw ImGui's check box. Return (was_clicked, is_on)."""
     _push_edge()
     changed, on = imgui.checkbox(label, on)
     _pop_edge()

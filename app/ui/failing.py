@@ -17,7 +17,7 @@ from .messages import failure_note
 
 
 class FailedViews:
-    """The views that failed, until the user retries. errors: by the view's name."""
+    """The views that failed, until the user retries. errors: the errors by the views' names."""
 
     def __init__(self) -> None:
         self.errors: dict[str, Exception] = {}

@@ -26,9 +26,9 @@ HINT = "drag, or double-click to type (1/3, sqrt(2)/2); Shift: faster, Alt: slow
 class Scale(NamedTuple):
     """The range of a field's level and drag, from low to high. Values outside it are legal.
 
-    logarithmic: for values above 0 that differ by factors.
+    logarithmic: True for positive values that differ by factors.
     least, most: the limits of dragging, not of typing.
-    whole: show whole numbers without decimals.
+    whole: True to show whole numbers without decimals.
     """
 
     low: float
@@ -96,7 +96,7 @@ def number_field(
     reset: float | None = None,
     unit: str = "",
 ) -> tuple[bool, float]:
-    """Draw a field. Return (whether it changed, its value).
+    """Draw a field. Return (has_changed, value).
 
     label: the id, not shown.
     marked: True to show it as wrong.

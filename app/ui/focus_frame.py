@@ -1,8 +1,8 @@
 """The frame around the control that has the keyboard, the same for every control and drawn last.
 
 ImGui draws its own frame first, so that our controls paint over it, and it is thin on a projector.
-This one's two colours have a contrast of 9:1: one of them has 3:1 on any background (WCAG 2.2,
-2.4.13).
+The two colours of this frame have a contrast of 9:1, so that one of them has 3:1 on any background
+(WCAG 2.2, 2.4.13).
 """
 
 from __future__ import annotations

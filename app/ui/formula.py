@@ -38,7 +38,7 @@ class Setting:
     text: str = ""
 
     def draw(self, x: float, baseline: float, color: ImVec4) -> None:
-        """Draw the formula. color: of plain text; a picture has its own."""
+        """Draw the formula. color: for plain text; a picture has its own."""
         draw = imgui.get_window_draw_list()
         if self.picture is None:
             draw.add_text((x, baseline - self.ascent), theme.u32(color), self.text)
@@ -73,7 +73,7 @@ def inline_math(latex: str, size_px: float, color: ImVec4, display: bool = False
     """Typeset a formula in text of size_px. Call it every frame.
 
     If MicroTeX rejects it, it is plain text in the current font.
-    display: set it as between $$.
+    display: True to set it as between $$.
     """
     scale = framebuffer_scale()
     if available():

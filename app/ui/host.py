@@ -51,7 +51,7 @@ class Filing(Protocol):
         """Ask for files to open. words: a description of such files."""
 
     def ask(self, text: str, answers: dict[str, Callable[[], None]]) -> None:
-        """Ask a question. answers: the words on the buttons next to Cancel, and what each does."""
+        """Ask a question. answers: the buttons next to Cancel, with their functions."""
 
     def say(self, text: str) -> None:
         """Show a toast."""
@@ -81,7 +81,7 @@ class Host(Protocol):
 
     @property
     def has_tools(self) -> bool:
-        """False if views are pictures alone: on a lecture's stage, and in pages."""
+        """False if views are only pictures, as on a lecture's stage and in pages."""
 
     @property
     def files(self) -> Filing: ...

@@ -23,7 +23,7 @@ STACKED_SPACE = "StackedSpace"  # below a lecture's first picture, whose LOWER_S
 INSTRUMENTS = "InstrumentSpace"  # below or next to it: tabs
 
 CAMERA_WIDTH_EM, LEAST_CAMERA_EM = 19.5, 14.5
-LECTURE = "Lecture"  # what a lecture shows, each step in its own way
+LECTURE = "Lecture"  # the views of a lecture, which each step arranges
 OUTSIDE, LOOPS = "Outside view", "Loops"
 
 Split = tuple[str, str, imgui.Dir, float]  # space, new space, direction, its share

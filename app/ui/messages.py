@@ -82,7 +82,7 @@ def loading_box(what: str, time_s: float) -> bool:
     with overlay(LOADING, top_center(3), (0.5, 0), box_width(26, 0.8), theme.ACCENT, flags):
         wrapped(f"{what} ...")
         imgui.push_style_color(imgui.Col_.plot_histogram, theme.ACCENT)
-        # A moving bar, since nobody knows how long it takes.
+        # Draw a moving bar, because the duration is unknown.
         size = -8 * imgui.get_font_size(), 0
         imgui.progress_bar(-0.5 * time_s, size, f"{time_s:.0f} s")
         imgui.same_line()

@@ -48,7 +48,7 @@ class Palette:
     LINE_WIDTH: float = 1.0
 
     def changed(self, u: str, v: str, w: str, **colors: str) -> Palette:
-        """Return a palette with other colours. u, v, w: of the basis."""
+        """Return a palette with other colours. u, v, w: the basis vectors' colours."""
         basis = {"u": rgb(u), "v": rgb(v), "w": rgb(w)}
         parts: dict[str, Any] = {name: rgb(text) for name, text in colors.items()}
         return replace(self, BASIS=basis, **parts)

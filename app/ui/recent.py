@@ -24,7 +24,7 @@ LONGEST = 4096  # characters of a path
 class RecentFiles:
     """The list of recent files. entries: absolute paths.
 
-    folder: of the list's file; None keeps the list for this run only.
+    folder: the folder of the list's file; None keeps the list for this run only.
     """
 
     def __init__(self, folder: Path | None) -> None:
@@ -56,7 +56,7 @@ class RecentFiles:
 
 
 def _read(file: Path) -> tuple[Path, ...]:
-    """Return the paths in the list's file, which is only a convenience; none if it is unusable."""
+    """Return the paths in the list's file; none if the file is unusable."""
     try:
         paths = msgspec.json.decode(read_file(file, LARGEST_BYTES), type=list[str])
     except (LucidaError, msgspec.DecodeError, UnicodeDecodeError, RecursionError):

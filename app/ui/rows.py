@@ -8,7 +8,7 @@ from . import theme
 
 LABEL_EM, WIDE_LABEL_EM = 4.4, 5.6  # next to three fields, next to one
 HALF_LABEL_EM = 4.0  # in a line of two fields
-TIP_EM = 40.0  # the width of a tooltip: a wider one would not fit beside its item
+TIP_EM = 40.0  # the width of a tooltip: a wider one would not fit next to its item
 NARROW_EM, NARROW_LABEL_EM = 16.5, 2.1  # a panel narrower than that has shorter labels
 
 

@@ -105,7 +105,7 @@ def follow(preferences: Preferences, in_lecture: bool = False) -> None:
     height_px = imgui.get_io().display_size.y
     look = look_of(preferences, height_px, style.font_scale_dpi, in_lecture)
     scale = style.font_scale_dpi * look.scale
-    # HelloImGui scales the sizes to the display in its second frame, whatever was done before.
+    # HelloImGui scales the sizes to the display in its second frame in any case.
     if height_px <= 0 or (
         look == _used[0] and math.isclose(style._main_scale, scale, abs_tol=1e-3)  # noqa: SLF001, no public way
     ):

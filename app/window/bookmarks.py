@@ -23,7 +23,7 @@ def store(window: Host, number: int) -> None:
     others = [mark for mark in options.bookmarks if mark.number != number]
     marks = sorted([*others, Bookmark(number, window.state.view)], key=lambda mark: mark.number)
     window.edit(replace(options, bookmarks=tuple(marks)))
-    window.files.say(f"This view is bookmark {number}: key {number} comes back to it.")
+    window.files.say(f"This view is bookmark {number}: key {number} returns to it.")
 
 
 def recall(window: Host, number: int) -> None:
@@ -32,7 +32,7 @@ def recall(window: Host, number: int) -> None:
         if mark.number == number:
             window.travel(window.state.with_view(mark.view))
             return
-    window.files.say(f"Bookmark {number} is free: Ctrl+{number} keeps a view.")
+    window.files.say(f"Bookmark {number} is free: Ctrl+{number} saves a view.")
 
 
 def save_for_film(window: Host) -> None:

@@ -25,15 +25,15 @@ FIRST = "window.md"
 COLUMNS = 3  # of Getting started
 TILES = {
     "window.png": "Drag an image to turn the camera; the wheel moves closer. P switches between "
-    "perspective and parallel projection, Home goes back.",
+    "perspective and parallel projection, Home resets the camera.",
     "outside.png": "Click a pixel to mark it. The layout Outside view, in the menu at the right "
     "end, shows its ray from the eye to what it hits.",
     "probe.png": "The layout Probe writes out that ray in formulas, with the pixel's numbers.",
     "compare.png": "The layout Compare shows where the rasterizer and the ray tracer differ, and "
     "why. N goes to the next such pixel.",
     "loops.png": "The layout Loops runs both algorithms line by line, next to their code.",
-    "lecture.png": 'Lecture > Begin "Images, rays and cameras". Page Down goes on, Esc leaves the '
-    "presentation.",
+    "lecture.png": 'Lecture > Begin "Images, rays and cameras". Page Down continues, Esc leaves '
+    "the presentation.",
 }
 MORE = (
     "F1 shows all keys. Drop a model, a photograph, a camera file "

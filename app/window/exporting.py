@@ -13,7 +13,7 @@ from lucida.renderer.system.atomic import file_stem
 from lucida.renderer.system.errors import one_line
 
 KINDS = "glTF (.glb) or a page (.html)"
-NOT_CARRIED = "Not as it is there:"
+NOT_CARRIED = "Exported with differences:"
 
 
 def ask_export(host: Host) -> None:

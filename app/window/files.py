@@ -41,7 +41,7 @@ OPEN = "Open anyway"
 
 @dataclass(frozen=True)
 class WindowQuestion:
-    """A question. answers: the words on the buttons next to Cancel, and what each does."""
+    """A question. answers: the buttons next to Cancel, with their functions."""
 
     text: str
     answers: dict[str, Callable[[], None]]
@@ -161,7 +161,7 @@ class Files:
         self.recent.add(saved.origin.source)
 
     def poll(self) -> Opened | None:
-        """Return what has been loaded since the last call; errors become the message."""
+        """Return the sources loaded since the last call, or None. Errors become the message."""
         if self._asking is not None and self._asking[0].ready(0):
             (asked, chosen), self._asking = self._asking, None
             try:
@@ -215,7 +215,7 @@ class Files:
         return said
 
     def ask(self, text: str, answers: dict[str, Callable[[], None]]) -> None:
-        """Ask a question. answers: the words on the buttons next to Cancel, and what each does."""
+        """Ask a question. answers: the buttons next to Cancel, with their functions."""
         self.question = WindowQuestion(text, answers)
         self._wake()
 

@@ -32,7 +32,7 @@ class Motions:
         return self.transition.under_way or self._edits.playing.under_way
 
     def stop(self) -> None:
-        """End the transition and the movement where they are."""
+        """Stop the transition and the movement at their present states."""
         self.transition.stop()
         self._edits.playing.end()
 

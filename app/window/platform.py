@@ -36,7 +36,7 @@ LONGEST_PLACING_S = 0.25  # wait for a window manager to place the window
 
 @dataclass(frozen=True)
 class Platform:
-    """GLFW's platform. has_display: False for the null platform. reason: why, in one line."""
+    """GLFW's platform. has_display: False for the null platform. reason: its cause, in one line."""
 
     has_display: bool
     reason: str = ""
@@ -298,7 +298,7 @@ def _check_opengl(platform: Platform) -> None:
         if not platform.has_display:
             glfw.window_hint(glfw.CONTEXT_CREATION_API, glfw.EGL_CONTEXT_API)
         if not window:
-            raise LucidaError("OpenGL 3.3", f"is not to be had: {_last(errors)}", remedy)
+            raise LucidaError("OpenGL 3.3", f"is not available: {_last(errors)}", remedy)
         glfw.destroy_window(window)
 
 

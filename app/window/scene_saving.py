@@ -128,7 +128,7 @@ class SceneSaving:
         saved: called after saving. otherwise: the words for not saving, which calls `lose`.
         """
         name = one_line(state.scene.name) or "The scene"
-        text = f"{name} was changed, and not saved."
+        text = f"{name} has unsaved changes."
         self._files.ask(text, {SAVE: lambda: self.save(state, saved), otherwise: lose})
 
     def _discard(self, scene: Scene) -> None:
@@ -156,7 +156,7 @@ class SceneSaving:
 def is_marked(scene: Scene, is_a_steps: bool = False) -> bool:
     """Return True if the scene has unsaved changes. This is quick enough for each frame.
 
-    The scene of a lecture's step is never marked, since nobody saves it.
+    The scene of a lecture's step is never marked, since it is never saved.
     """
     return not is_a_steps and is_unsaved(scene)
 

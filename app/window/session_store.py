@@ -24,8 +24,8 @@ from .capture import free_path
 
 MOST_WINDOWS = 16
 QUIET_S = 2.0  # after the last change, before a session is saved
-LONGEST_S = 10.0  # while changes go on
-LAST_S = 5.0  # at the end, for what is being saved
+LONGEST_S = 10.0  # between saves during continuous changes
+LAST_S = 5.0  # at the end, to finish saving
 
 
 class SessionFile:
@@ -89,7 +89,7 @@ def take_place(folder: Path | None = None) -> SessionFile | None:
             if lock is not None:
                 path = folder / f"session-{number}.json"
                 return SessionFile(path, lock)
-    except (OSError, RuntimeError):  # RuntimeError: there is no home
+    except (OSError, RuntimeError):  # RuntimeError: no home folder
         pass
     return None
 

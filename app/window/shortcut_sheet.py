@@ -14,7 +14,7 @@ from .instruments import INSTRUMENTS
 
 Row = tuple[str, str]  # keys, what they do
 Part = tuple[str, list[Row]]  # a heading, and its rows
-ESCAPE: Row = ("Esc", "take back the drag of a handle; close what lies on top; leave presentation")
+ESCAPE: Row = ("Esc", "cancel the drag of a handle; close the topmost box; leave presentation")
 MOVING: tuple[Row, ...] = (
     ("Ctrl+Tab", "from view to view"),
     ("Tab, arrows", "from control to control; Space uses it"),

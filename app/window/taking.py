@@ -94,7 +94,7 @@ def _take_scene(window: Taker, opened: OpenedScene, view: View | None) -> None:
         old = state.scene  # which may have been edited while its file was read
         if is_unsaved(old):
             window.files.ask(
-                one_line(f"{old.name} was changed by another program, and here: not saved."),
+                one_line(f"{old.name} was changed by another program, and is unsaved here."),
                 {READ_AGAIN: lambda: take_newer(window, old, scene)},
             )
         else:

@@ -1,6 +1,6 @@
 """One run of the window: HelloImGui's parameters, settings, screenshot.
 
-main_window.py runs the frames, and launch.py decides what is opened.
+main_window.py runs the frames, and launch.py selects the content.
 """
 
 from __future__ import annotations
@@ -175,7 +175,7 @@ class WindowRun:
         params.imgui_window_params.show_status_bar = True
         params.imgui_window_params.show_status_fps = False
         params.imgui_window_params.remember_status_bar_settings = False
-        # Text and images only: multisampling would cost more than everything else together.
+        # Text and images need no multisampling, which would cost more than everything else.
         params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
         params.fps_idling.fps_idle = 0.0 if self.take_picture else IDLE_FPS
         params.fps_idling.enable_idling = not self.take_picture
@@ -191,7 +191,7 @@ class WindowRun:
         callbacks.setup_imgui_style = self.guarded(lambda: theme.begin(state.preferences))
         callbacks.post_init = self.guarded(self._begin)
         callbacks.pre_new_frame = self.guarded(self._before_frame)
-        # Before the views are drawn: too early for their images. See _before_render().
+        # It runs before the views are drawn, too early for their images. See _before_render().
         callbacks.custom_background = self.guarded(self._begin_frame)
         callbacks.before_swap = self.guarded(self._before_swap)
         callbacks.before_imgui_render = self.guarded(self._before_render)
@@ -324,7 +324,7 @@ def save_png(path: Path, pixels: np.ndarray) -> None:
 
 
 def user_folder() -> Path | None:
-    """Return the user's settings folder; None if there is no home."""
+    """Return the user's settings folder; None if there is no home folder."""
     try:
         return settings_folder()
     except RuntimeError:

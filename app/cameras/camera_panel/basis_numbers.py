@@ -18,8 +18,8 @@ SINGULAR = 1e-9
 LENGTHS = "Lengths of u, v and w. Orthonormal: 1."
 ANGLES = "Angles between u and v, v and w, w and u. Orthonormal: 90 degrees."
 DETERMINANT = """\
-The volume that u, v and w span. 0: they are no basis. Negative: left-handed, the image is mirrored;
-positive: right-handed. Orthonormal: 1 or -1."""
+The volume that u, v and w span. 0: they are not a basis. Negative: they are left-handed, and the
+image is mirrored. Positive: they are right-handed. Orthonormal: 1 or -1."""
 
 
 def basis_readout(found: Measures, mono: imgui.ImFont | None) -> None:

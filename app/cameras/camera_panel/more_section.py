@@ -26,10 +26,10 @@ SHIFTS = (
 DOLLY = """\
 Dolly zoom: the eye goes back and d grows with it, so that the scene's middle keeps its
 size; only the perspective changes.
-The number: how far the middle is from the eye, in units of w."""
+The number is the distance from the eye to the middle, in units of w."""
 PLANES = (
-    ("near", "Nothing nearer is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
-    ("far", "Nothing farther is drawn: a plane, along -w in units of w. Off: fitted to the scene."),
+    ("near", "Nothing before this plane is drawn: along -w, in units of w. Off: fits the scene."),
+    ("far", "Nothing beyond this plane is drawn: along -w, in units of w. Off: fits the scene."),
 )
 ORTHONORMAL = """\
 On: u, v, w stay of length 1 and at right angles; the others follow the one you edit.

@@ -93,7 +93,7 @@ def _projection(state: AppState) -> Wish | None:
         wanted = False
     rows.tip(PERSPECTIVE)
     style = imgui.get_style()
-    if imgui.get_item_rect_size().x + style.item_spacing.x < half:  # else below: very large type
+    if imgui.get_item_rect_size().x + style.item_spacing.x < half:  # else: very large type
         imgui.same_line(style.window_padding.x + half)
     if radio_button("parallel", parallel):
         wanted = True

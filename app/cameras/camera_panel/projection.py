@@ -26,17 +26,17 @@ VIEWPORT = (
     ("bottom", "The viewport's lower edge, in units of v."),
     ("top", "The viewport's upper edge, in units of v."),
 )
-RECTANGLE = "The rectangle of the image plane that is the image, in units of u and v."
-DISTANCE = "d: how far the image plane lies from the eye along -w, in units of w."
+RECTANGLE = "The image's rectangle on the image plane, in units of u and v."
+DISTANCE = "d: the distance from the eye to the image plane along -w, in units of w."
 FIELD_OF_VIEW = """\
 The vertical angle between the viewport's lower and upper edge, seen from the eye.
-It and d are one number: the viewport stays, d changes."""
+It determines d: the viewport stays, d changes."""
 FIT = """\
 On: the viewport is widened or heightened to the image's shape.
 Off: it is used unchanged, and the picture may look stretched."""
 NO_EYE = "none, rays are parallel"
 
-LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # where dragging ends
+LEAST_FOV_DEG, MOST_FOV_DEG = 0.5, 175.0  # the limits of dragging
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,7 @@ def _field_of_view(state: AppState, draft: Draft, around: PanelContext) -> tuple
         rows.instead(NO_EYE)
         return state, draft
     shown = around.shown
-    if shown.distance != state.camera.distance:  # changed in this very frame
+    if shown.distance != state.camera.distance:  # changed in this frame
         shown = replace(shown, distance=state.camera.distance)
     changed, value = around.field(
         "field of view",

@@ -32,8 +32,8 @@ ORIGIN_NOTES: dict[PixelOrigin, str] = {
     "corner": "The image's corner is (0, 0), the first pixel's centre (0.5, 0.5), as in COLMAP.",
 }
 LOOK_FIELDS = (
-    ("target", "What it looks at: in the middle of an on-axis image."),
-    ("up", "Which direction is up in the image; not along the view direction."),
+    ("target", "The point in view: in the middle of an on-axis image."),
+    ("up", "The direction that is up in the image; not along the view direction."),
 )
 
 

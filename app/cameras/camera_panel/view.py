@@ -25,7 +25,7 @@ CAMERA = "Camera"
 class CameraView(Instrument):
     """The camera's panel.
 
-    draft: numbers that make no valid camera yet.
+    draft: numbers that do not make a valid camera yet.
     entered: the contents of the sections.
     """
 

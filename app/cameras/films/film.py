@@ -20,7 +20,7 @@ from .encoding import Writer
 from .frames import Look, Shot
 from .workers import drawn_by_workers, drawn_here
 
-_ENCODING = 0.1  # of the progress
+_ENCODING = 0.1  # its share of the progress
 
 
 @dataclass(frozen=True, eq=False)

@@ -50,7 +50,7 @@ class Look:
 
 
 class Drawing:
-    """The renderer of one scene, kept from picture to picture. Only the used one is loaded."""
+    """The renderer of one scene, kept from picture to picture. Only the one in use is loaded."""
 
     def __init__(self, scene: Scene, look: Look) -> None:
         self.scene, self.look = scene, look

@@ -19,7 +19,7 @@ def course_names() -> list[str]:
 
 
 def task_path(named: str) -> Path:
-    """Return the file of a course's name, or of a path. A file of the user's comes first.
+    """Return the file of a course's name or of a path. The user's own file takes precedence.
 
     Raises LucidaError if it is neither.
     """

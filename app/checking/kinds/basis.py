@@ -2,9 +2,9 @@
 
 Answers are arrays (3, 3): the rows are u, v, w in the world.
 
-Tolerance of each number: eye - target cancels, so its direction has an error of FLOAT32 * C with
-C = (|eye| + |target|) / |eye - target|. up x w loses what up and w have in common, so the sum is
-divided by the sine of their angle: FLOAT32 * (1 + C) / sin(up, w).
+Tolerance of each number: eye - target cancels, so that its direction has an error of FLOAT32 * C
+with C = (|eye| + |target|) / |eye - target|. The error of up x w grows as up and w become parallel,
+so the sum is divided by the sine of their angle: FLOAT32 * (1 + C) / sin(up, w).
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ class BasisKind(CheckKind):
         returns = task.conventions.returns
         if (parts := vectors(value, returns)) is None:
             return None
-        given = np.array(case.right)  # the parts that are not asked for count as correct
+        given = np.array(case.right)  # parts that are not required count as correct
         for name, part in zip(returns, parts, strict=True):
             which, sign = PARTS[name]
             given[which] = sign * np.array(part)
@@ -56,7 +56,7 @@ BASIS = BasisKind(**described("basis"))
 
 
 def conditioning(eye: Vector, target: Vector, up: Vector) -> float:
-    """Return how much a relative error of the vectors grows in the basis."""
+    """Return the growth of the vectors' relative error in the basis."""
     back = np.subtract(eye, target)
     away, length = np.linalg.norm(back), np.linalg.norm(up)
     sine = np.linalg.norm(np.cross(up, back)) / (length * away)

@@ -1,14 +1,15 @@
 """Intersection of a ray with a sphere, a triangle, and the nearest of several objects.
 
-Answers: t, inf for a miss; for the nearest object, its number from 0 and t, -1 and inf for a miss.
+An answer is t, inf for a miss. For the nearest object it is its number from 0 and t; -1 and inf for
+a miss.
 
-Tolerances. Sphere: with M = |o| + |c| + r, no intermediate result is larger than M^2 |d|^2. The
+Tolerances. For a sphere, let M = |o| + |c| + r; no intermediate result exceeds M^2 |d|^2. The
 discriminant cancels to (s |d|)^2, where s is half of the chord, and its root has an error of
 FLOAT32 * M^2 / (2 s) relative to |d|: t is correct within FLOAT32 * (M + M^2 / (2 s)) / |d|.
-Triangle: let L be the longest edge, M = |o| + the farthest corner, and n the cross product of two
-edges. The numerator n . (a - o) has an error of FLOAT32 * L^2 M, the denominator of
-FLOAT32 * L^2 |d|: t is correct within FLOAT32 * L^2 (M + t |d|) / |n . d|. Rays are only asked for
-where rounding cannot decide between hit and miss: MARGIN (shapes.py) is a thousand times the
+For a triangle, let L be the longest edge, M = |o| + the farthest corner, and n the cross product of
+two edges. The numerator n . (a - o) has an error of FLOAT32 * L^2 M, the denominator of
+FLOAT32 * L^2 |d|: t is correct within FLOAT32 * L^2 (M + t |d|) / |n . d|. Tasks use only rays
+for which rounding cannot turn a hit into a miss: MARGIN (shapes.py) is a thousand times the
 rounding of float32.
 """
 
@@ -39,11 +40,11 @@ Values = dict[str, Any]
 
 @dataclass(frozen=True, kw_only=True)
 class HitKind(CheckKind):
-    """A ray that meets one object, or several.
+    """A ray and one object, or several.
 
-    rays, objects: of the first cases, each with each. A ray is an origin and a direction.
+    rays, objects: combined with each other in the first cases. A ray is an origin and a direction.
     shape: the type of the one object; "" for several of both types.
-    places: of the generated objects, in turn; see _sphere and _triangle.
+    places: the generated objects' places, in turn; see _sphere and _triangle.
     """
 
     rays: list[tuple[list[float], list[float]]]
@@ -123,7 +124,7 @@ def _all_hits(ray: Values, objects: list[Values]) -> list[float]:
 
 
 def _several_objects(random: Random, number: int) -> tuple[Values, list[Values]]:
-    """Return a ray and objects, of which it hits, in turn, at least none, one, or two."""
+    """Return a ray and objects, of which it hits at least `number` % 3."""
     while True:
         ray, objects = _ray(random), []
         for _ in range(int(random.integers(2, 7))):
@@ -145,7 +146,7 @@ def _ray(random: Random) -> Values:
 def _object(random: Random, ray: Values, kind: str, place: Place) -> Values:
     """Return an object that the ray clearly hits, or clearly misses.
 
-    place: ahead of the ray, which hits it; beside the ray; behind it; or around its origin.
+    place: ahead of the ray, which hits it; next to the ray; behind it; or around its origin.
     """
     make = _sphere if kind == "sphere" else _triangle
     while True:
@@ -166,7 +167,7 @@ def _sphere(random: Random, ray: Values, place: Place) -> Values:
 
 
 def _triangle(random: Random, ray: Values, place: Place) -> Values:
-    """Return a triangle. Beside the ray, its plane is hit beyond an edge."""
+    """Return a triangle. If it is next to the ray, the ray hits its plane beyond an edge."""
     corners = random.uniform(-2.0, 2.0, (3, 3))
     weights = random.dirichlet((2.0, 2.0, 2.0))
     if place == "beside":
@@ -183,7 +184,7 @@ def _unit(vector: ArrayLike) -> Floats:
 
 
 def _is_clear(ray: Values, shape: Values) -> bool:
-    """Return True if rounding cannot decide between hit and miss.
+    """Return True if rounding cannot turn a hit into a miss, or a miss into a hit.
 
     A triangle must be neither thin nor seen edge-on, so that float32 keeps the digits of t.
     """

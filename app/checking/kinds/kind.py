@@ -1,6 +1,6 @@
 """A kind of function: it generates cases, calls the function, reads its answers and judges them.
 
-Return values are JSON values, read generously. None means that a value is not of that type.
+Return values are JSON values, parsed leniently. None means that a value is not of that type.
 Infinite and NaN numbers are numbers here; the caller decides about them.
 """
 
@@ -19,11 +19,11 @@ from lucida.app.checking.tasks import Call, CheckCase, CheckTask
 from lucida.app.checking.words import Words
 
 SHOWN = 80  # characters of a value in a message
-DEPTH = 8  # of nested lists that are written out
+DEPTH = 8  # of nested lists that are displayed
 
 
 def number(value: Any) -> float | None:
-    """Return a number. A list of one number counts, as arrays of one element are lists."""
+    """Return a number. Accept a list of one number, because arrays of one element become lists."""
     while isinstance(value, list) and len(value) == 1:
         value = value[0]
     if isinstance(value, bool) or not isinstance(value, int | float):
@@ -35,8 +35,8 @@ def number(value: Any) -> float | None:
 
 
 def vector(value: Any) -> tuple[float, float, float] | None:
-    """Return three numbers, from a list, a row or column of a matrix, or x, y, z. A fourth number
-    that is 0 or 1 is a homogeneous coordinate.
+    """Return three numbers from a list, a row or column of a matrix, or fields x, y and z. A fourth
+    number that is 0 or 1 is a homogeneous coordinate.
     """
     if isinstance(value, dict):
         value = [value.get(name) for name in ("x", "y", "z")]
@@ -52,8 +52,8 @@ def vector(value: Any) -> tuple[float, float, float] | None:
 
 
 def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]] | None:
-    """Return a vector for each name: from a list in this order, by name, or from all numbers in a
-    row.
+    """Return a vector for each name, read from a list in this order, by name, or from a flat list
+    of numbers.
     """
     value = in_order(value, names)
     if isinstance(value, list) and len(value) == 3 * len(names) != 3:
@@ -68,7 +68,7 @@ def vectors(value: Any, names: Sequence[str]) -> list[tuple[float, float, float]
 
 
 def in_order(value: Any, names: Sequence[str]) -> Any:
-    """Return the parts of an answer that names them, in the order of the names; any other value
+    """Return an answer with named parts as a list in the order of the names. Return any other value
     unchanged.
     """
     if isinstance(value, dict) and all(name in value for name in names):
@@ -77,7 +77,7 @@ def in_order(value: Any, names: Sequence[str]) -> Any:
 
 
 def is_miss(value: Any) -> bool:
-    """Return True if the value means a miss: None, False, inf, nan, or a list of nothing else.
+    """Return True if the value means a miss: None, False, inf, nan, or a list of only these.
 
     Minus infinity is not a miss: it is nearer than every hit.
     """
@@ -101,7 +101,7 @@ def array(value: Any) -> NDArray[np.float64] | None:
 
 
 def shown(value: Any) -> str:
-    """Return a returned value for a message: shortened, or only an array's shape."""
+    """Format a returned value for a message: shorten it, or show only an array's shape."""
     text = text_of(value)
     if len(text) <= SHOWN:
         return text
@@ -110,7 +110,7 @@ def shown(value: Any) -> str:
 
 
 def text_of(value: Any, depth: int = DEPTH) -> str:
-    """Return a value as Python writes it, with numbers of six digits: (1, 0.5, -2)."""
+    """Format a value as in Python, with six-digit numbers: (1, 0.5, -2)."""
     if depth == 0:
         return "..."
     match value:
@@ -132,7 +132,7 @@ def text_of(value: Any, depth: int = DEPTH) -> str:
 Floats = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-# Rounding error allowed for a correct float32 answer: 64 times 2^-24, relative to the largest
+# The rounding error allowed for a correct float32 answer is 64 times 2^-24, relative to the largest
 # number that it is computed from. The longest usual computations take about twenty operations; the
 # inputs are rounded too, and a matrix is inverted.
 FLOAT32 = 2.0**-18

@@ -2,9 +2,9 @@
 
 Answers are arrays (H, W, 3).
 
-Tolerance: half of 1/255, so that bytes divided by 255 are correct. A pixel is not judged if its
-ray passes an edge or an outline by less than EDGE of the object's size, or hits two objects within
-EDGE of each other. EDGE is a hundred times the float32 error of such a ray (viewing_ray.py,
+The tolerance is half of 1/255, so that bytes divided by 255 are correct. A pixel is not judged if
+its ray passes an edge or an outline by less than EDGE of the object's size, or hits two objects
+within EDGE of each other. EDGE is a hundred times the float32 error of such a ray (viewing_ray.py,
 hits.py).
 """
 
@@ -105,7 +105,7 @@ def rendered(
 
 
 def _objects(shot: Shot, random: Random, nearest_last: bool) -> list[dict[str, Any]]:
-    """Return objects one in front of the other before the camera, others behind it on the same
+    """Return objects in front of the camera that occlude each other, others behind it on the same
     lines, and one more anywhere in the image.
     """
     left, right, bottom, top = shot.camera.viewport
@@ -124,8 +124,8 @@ def _objects(shot: Shot, random: Random, nearest_last: bool) -> list[dict[str, A
 def _object(shot: Shot, random: Random, at: Floats, depth: float, part: float) -> dict[str, Any]:
     """Return a sphere or a triangle.
 
-    at: on the image plane.
-    depth: in front of the eye, in units of w.
+    at: its position on the image plane.
+    depth: its distance in front of the eye, in units of w.
     part: its size, as a fraction of the image's.
     """
     camera = shot.camera

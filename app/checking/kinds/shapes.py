@@ -1,7 +1,7 @@
-"""Intersections of rays with spheres and triangles: the correct answers, and how clear each one is.
+"""Intersections of rays with spheres and triangles: the correct answers and their margins.
 
-An answer's margin is the distance of the ray from where the answer would change, as a fraction of
-the object's size. If the margin is small, rounding decides; such rays are never asked for.
+An answer's margin is the distance of the ray from one with another answer, as a fraction of the
+object's size. If the margin is small, rounding decides; tasks never use such rays.
 """
 
 from __future__ import annotations
@@ -40,8 +40,8 @@ def crossings(origin: ArrayLike, direction: ArrayLike, shape: Shape) -> tuple[li
 def _sphere_crossings(
     o: Floats, d: Floats, center: Floats, radius: float
 ) -> tuple[list[Floats], Floats]:
-    """Solve |o + t d - c| = r. Margins: from the outline, and from the origin to the surface, in
-    radii.
+    """Solve |o + t d - c| = r. The margins are distances from the outline, and from the origin to
+    the surface, in radii.
     """
     from_center = o - center
     squared = np.sum(d * d, axis=-1)
@@ -57,8 +57,9 @@ def _sphere_crossings(
 def _triangle_crossings(
     o: Floats, d: Floats, a: Floats, b: Floats, c: Floats
 ) -> tuple[list[Floats], Floats]:
-    """Solve o + t d = a + beta (b - a) + gamma (c - a) by Cramer's rule; both sides count. Margins:
-    from the edges, as barycentric coordinates, and from the origin to the plane, in lengths of d.
+    """Solve o + t d = a + beta (b - a) + gamma (c - a) by Cramer's rule; both sides count. The
+    margins are distances from the edges, as barycentric coordinates, and from the origin to the
+    plane, in lengths of d.
 
     Source: Marschner and Shirley, Fundamentals of Computer Graphics, "Ray-Triangle Intersection".
     """
@@ -80,7 +81,7 @@ def tolerance(
 ) -> float:
     """Return the largest difference from t due to rounding alone; see kinds/hits.py.
 
-    rounding: relative error of each number. 0 for a miss, which has no t.
+    rounding: relative error of each number. The result is 0 for a miss, which has no t.
     """
     if not np.isfinite(t):
         return 0.0

@@ -45,7 +45,7 @@ class ViewingRayKind(CheckKind):
             with np.errstate(all="ignore"):
                 given = given @ frame.T + [eye, np.zeros(3)]
         others = [place for place in (0, 1) if place not in places]
-        given[others] = right[others]  # the part that is not asked for counts as correct
+        given[others] = right[others]  # a part that is not required counts as correct
         return given
 
     def wrong(self, task: CheckTask, cases: Cases, given: Any) -> Flags:
@@ -131,7 +131,7 @@ def are_right(cases: Cases, given: ArrayLike, unit: bool) -> Flags:
     """Return the correct rays, bool (N,).
 
     given: (N, 2, 3) in the world.
-    unit: directions must be of length 1.
+    unit: True if directions must be of length 1.
     """
     given = np.asarray(given)
     right = np.array([case.right for case in cases], float)

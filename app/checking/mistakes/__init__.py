@@ -1,4 +1,4 @@
-"""The classic wrong lines, as code that runs, and what a student's numbers reveal about them.
+"""The classic wrong lines, as code that runs, and their diagnosis from a student's numbers.
 
 catalogue  the lines and their mistakes, from the tables in catalogue/
 program    lines of Python, some of them wrong, which are both run and shown

@@ -1,7 +1,7 @@
 """The classic mistakes, read from the tables in catalogue/.
 
-A part has correct lines and the mistakes in them. `{name}` stands for a value that depends on the
-task. A mistake has a name, a hint, and `wrong`: either the wrong code of a line, by the line's
+A part has correct lines and the mistakes in them. `{name}` is replaced by a value that depends on
+the task. A mistake has a name, a hint, and `wrong`: either the wrong code of a line, by the line's
 name, or a wrong value, by the value's name. A wrong value is wrong in each line that uses it. Code
 that is correct in a task is no mistake there.
 """
@@ -25,11 +25,11 @@ Part = tuple[list[CodeLine], list[Mistake]]
 class _Row(msgspec.Struct, forbid_unknown_fields=True):
     """A mistake in the table.
 
-    hint: empty for that of the mistake with the same name in [closest-hit].
-    title: the lecture's step to read again, if it is not that of the part.
+    hint: "" to use the hint of the mistake with the same name in [closest-hit].
+    title: the lecture's step to read again, if it differs from the part's.
     when: the facts about a task in which people make it; "not ..." for a fact that must not hold.
-    rare: few people make it.
-    alone: it is a mistake in only the columns, or only the rows, as well.
+    rare: True if few people make it.
+    alone: True if it can also be made in only the columns, or only the rows.
     swaps: as in Mistake.
     """
 
@@ -65,8 +65,8 @@ def part(
 ) -> Part:
     """Return the lines of a part, and their mistakes.
 
-    values: for the names in braces.
-    facts: those that hold for the task, as in _Row.when.
+    values: the values of the names in braces.
+    facts: the facts that hold for the task, as in _Row.when.
     angles: the task's word for the angle of each edge of the viewport, by the edge's name in the
     part. The mistakes in the use of angles come first.
     """
@@ -107,7 +107,7 @@ def _changed(lines: Values, written: Values) -> Swaps:
 
 
 def _mistakes(row: _Row, title: str, values: Values, wrong: Swaps) -> list[Mistake]:
-    """Return a row's mistake; none if nothing is wrong."""
+    """Return a row's mistake; an empty list if nothing is wrong."""
     hint = row.hint or next(
         r.hint for r in _catalogue()["closest-hit"].mistakes if r.name == row.name
     )

@@ -1,4 +1,4 @@
-"""The explanation of wrong answers: the mistakes that reproduce them, or what else is known."""
+"""The explanation of wrong answers: the mistakes that reproduce them, or other findings."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from .trials import candidates, trials_of
 
 Cases = Sequence[CheckCase]
 
-MOST = 1000  # of cases that are examined; large images have more rays
+MOST = 1000  # cases to examine; large images have more rays
 NAMED = 3  # candidates named; more would not help
 READ = "Read again: "  # before the title of a lecture's step
 
@@ -31,7 +31,7 @@ READ = "Read again: "  # before the title of a lecture's step
 class Diagnosis:
     """The explanation of wrong answers.
 
-    sentences: in the lecture's words, the most helpful first.
+    sentences: the explanation in the lecture's words, the most helpful sentence first.
     candidates: the mistakes, one or two at once, that all fit the numbers; () if there are none.
     """
 
@@ -77,8 +77,8 @@ def _of_all(task: CheckTask, cases: Cases, given: Any) -> Iterator[str]:
 
 
 def _candidate_sentences(program: Program, found: Sequence[Mistakes]) -> list[str]:
-    """Return the hints of the first candidate, the lines that it amounts to, the other candidates'
-    hints, and what to read again.
+    """Return the first candidate's hints and wrong lines, the others' hints, and the steps to read
+    again.
     """
     first = found[0]
     sentences = ["Two mistakes at once."] if len(first) == 2 else []
@@ -133,7 +133,7 @@ def _correct_parts(task: CheckTask, cases: Cases, given: Any, wrong: Flags) -> I
         yield "Your origins are correct, your directions are not."
     elif are_all_right(right[:, 0], rays[:, 1]):
         yield "Your directions are correct, your origins are not."
-    images: dict[Any, bool] = {}  # True for those whose rays are all correct
+    images: dict[Any, bool] = {}  # True if all rays of an image are correct
     for case, is_wrong in zip(cases, wrong, strict=True):
         image = case.camera, case.size
         images[image] = images.get(image, True) and not is_wrong

@@ -87,8 +87,8 @@ class Program:
     paired: frozenset[str] = frozenset()
 
     def text(self, mistakes: Sequence[Mistake] = ()) -> tuple[ShownLine, ...]:
-        """Return all lines in order, with the wrong code. The first of several mistakes counts if
-        they cannot be combined in one line.
+        """Return all lines in order, with the wrong code. If several mistakes cannot be combined in
+        one line, the first one counts.
         """
         instead: dict[str, str] = {}
         for mistake in sorted(mistakes, key=lambda mistake: bool(mistake.swaps)):
@@ -97,7 +97,7 @@ class Program:
         return tuple(ShownLine(line.key, line.code, instead.get(line.key)) for line in self.lines)
 
     def shown(self) -> Program:
-        """Return the program to show, with letters, which are not the names that run() knows."""
+        """Return the program to show, with letters instead of the names that run() needs."""
         return _shown(self)
 
     def source(self, mistakes: Sequence[Mistake] = ()) -> str:
@@ -127,8 +127,8 @@ class Program:
                 yield first, second
 
     def can_combine(self, first: Mistake, second: Mistake) -> bool:
-        """Return True if the mistakes are in different lines, or both show in the line that they
-        share.
+        """Return True if the mistakes are in different lines, or both are visible in the line that
+        they share.
         """
         shared = first.keys & second.keys
         if not shared:

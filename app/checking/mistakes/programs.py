@@ -17,7 +17,7 @@ from .vectors import SHAPES
 
 
 def program_of(task: CheckTask) -> Program:
-    """Return the program whose mistakes are looked for in a task's answers."""
+    """Return the program whose mistakes may explain a task's answers."""
     if task.kind == "viewing-ray":
         return ray_program(ray_task(task))
     if task.kind == "render":
@@ -54,7 +54,7 @@ def known_values(task: CheckTask, case: CheckCase) -> dict[str, Any]:
 
 
 def _image_values(task: CheckTask, case: CheckCase) -> dict[str, Any]:
-    """Return the values for all pixels of an image, whose rows count as in the task."""
+    """Return the values for all pixels of an image, with rows numbered as in the task."""
     assert case.camera is not None and case.size is not None
     rays = ray_task(task)
     width, height = case.size
@@ -73,9 +73,7 @@ def case_values(case: CheckCase, i: Any, j: Any, task: RayTask) -> dict[str, Any
 
 
 def _remembered(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Cache intersections: many mistakes leave the rays unchanged, so each object is asked only
-    once.
-    """
+    """Cache intersections, because many mistakes leave the rays unchanged."""
     answers: dict[tuple[bytes, bytes, int], Any] = {}
 
     def asked(origin: Any, direction: Any, shape: Mapping[str, Any]) -> Any:

@@ -1,7 +1,7 @@
 """The lines for the viewing ray of a pixel in a task's words, and their mistakes.
 
-With all values of the camera, and (i, j) from 0 with row 0 at the top, they are the camera's
-contract:
+If the task passes all values of the camera, and counts (i, j) from 0 with row 0 at the top, the
+lines are the camera's contract:
 
     x = left + (j + 0.5) / width * (right - left)
     y = top - (i + 0.5) / height * (top - bottom)
@@ -57,14 +57,15 @@ _FRAMES = ({"eye", "u", "v", "w"}, {"eye", "target", "up"}, {"eye", "forward", "
 
 @dataclass(frozen=True)
 class RayTask:
-    """The conventions of a task that asks for rays.
+    """The conventions of a task that requires rays.
 
-    words: what the task passes. Of the pixel: i, j; x_pixel, y_pixel, its centre in pixels; x01,
-    y01; x11, y11. Of the camera: eye; u, v, w or target, up or camera_to_world or world_to_camera;
-    left, right, bottom, top or fov_y, fov_x, in degrees or with _rad in radians, and aspect; or the
-    words in SIZES, GRID or EDGES. With other words, the lines are those of the camera contract.
-    indexing, from_top: how i counts rows and j columns; y01 and y11 start at the first row.
-    axes: of the matrices' camera space, as in Conventions.
+    words: the words that the task passes. A pixel has i, j; x_pixel, y_pixel, its centre in pixels;
+    x01, y01; x11, y11. A camera has eye; u, v, w or target, up or camera_to_world or
+    world_to_camera; left, right, bottom, top or fov_y, fov_x, in degrees or with _rad in radians,
+    and aspect; or the words in SIZES, GRID or EDGES. With other words, the lines are those of the
+    camera contract.
+    indexing, from_top: the numbering of rows i and columns j; y01 and y11 start at the first row.
+    axes: the axes of the matrices' camera space, as in Conventions.
     """
 
     projection: str = "perspective"
@@ -76,7 +77,7 @@ class RayTask:
 
 def ray_task(task: CheckTask) -> RayTask:
     """Return the conventions of a task in the words of the lines, or in the camera's own words if
-    the lines lack them. The loops of an image count from 0, whatever its pixels are counted from.
+    the lines lack them. The loops of an image always count from 0.
     """
     its = task.conventions
     words = {same for word in its.words for same in _SAME.get(word, {word})}
@@ -94,7 +95,7 @@ def ray_task(task: CheckTask) -> RayTask:
 
 @functools.lru_cache(256)
 def ray_program(task: RayTask) -> Program:
-    """Return the correct lines and their mistakes. They make origin and direction."""
+    """Return the correct lines, which compute origin and direction, and their mistakes."""
     words, is_parallel = task.words, task.projection == "parallel"
     has_angle = "left" not in words and any(word.startswith("fov_") for word in words)
     distance = "1" if has_angle and "distance" not in words else "distance"
@@ -214,7 +215,7 @@ def ray_values(
     """Return the values that the lines use: all words but target and up.
 
     i, j: pixels, 0-based, row 0 at the top.
-    size: of the image, (width, height).
+    size: the image's (width, height).
     """
     task = task or RayTask(camera.projection)
     row, column = (np.asarray(value)[..., None] for value in np.broadcast_arrays(i, j))

@@ -1,8 +1,8 @@
 """The mistakes, one or two at once, that reproduce the given numbers.
 
-A mistake is named only if its line returns exactly the given numbers in every case. Mistakes must
-match within float64 precision first, then within float32: an answer in float64 is never mistaken
-for a mistake that is merely close to it. All that fit equally well are named.
+A mistake is reported only if its line returns exactly the given numbers in every case. Mistakes
+must match within float64 precision first, then within float32: an answer in float64 is never
+mistaken for a mistake that is merely close to it. All equally good matches are reported.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def trials_of(
 
 
 class RayTrial:
-    """Rays, given and correct: the lines run for all cases at once."""
+    """Given and correct rays. The lines run for all cases at once."""
 
     def __init__(self, task: CheckTask, cases: Sequence[CheckCase], given: Sequence[Any]) -> None:
         self._answers = np.array([given, [case.right for case in cases]], float)  # (2, N, 2, 3)
@@ -87,11 +87,11 @@ class RayTrial:
         }
 
     def errors(self, program: Program, mistakes: Mistakes) -> Errors:
-        """Return how far the given rays, and the correct ones, are from the program's, relative to
+        """Return the distances of the given and of the correct rays from the program's, relative to
         the largest intermediate result.
 
-        The error is 0 if neither is finite: both divide by zero in the same place. So does a
-        student who normalises a direction of length 0.
+        The error is 0 if neither is finite, because both divide by zero in the same place, as does
+        a student who normalises a direction of length 0.
         """
         origins, directions = run_rays(program, self._known, mistakes)
         with np.errstate(all="ignore"):
@@ -117,11 +117,11 @@ class ValueTrial:
     def __init__(self, task: CheckTask, case: CheckCase, given: Any) -> None:
         self._answers = np.asarray(given, float), np.asarray(case.right, float)
         self._known = known_values(task, case)
-        self._judged = case.values.get("judged", ...)  # of an image: the pixels that count
+        self._judged = case.values.get("judged", ...)  # an image's pixels that count
         self._tolerance = max(case.tolerance, 1e-300)
 
     def errors(self, program: Program, mistakes: Mistakes) -> Errors:
-        """Return how far the given answer, and the correct one, are from the program's, scaled so
+        """Return the distances of the given and of the correct answer from the program's, scaled so
         that LOOSE is the limit.
         """
         (answer,) = program.run(self._known, mistakes)
@@ -135,8 +135,8 @@ class ValueTrial:
         return given, right
 
     def _apart(self, answer: Floats, made: Floats) -> float:
-        """Return the distance. The limit is the tolerance, or LOOSE of the largest number. Equal
-        NaN and inf count as equal: both divide by zero in the same places.
+        """Return the distance. The limit is the tolerance, or LOOSE of the largest number. Matching
+        NaN and inf count as equal, because both divide by zero in the same places.
         """
         largest = float(np.abs(made[np.isfinite(made)]).max(initial=0.0))
         with np.errstate(invalid="ignore"):

@@ -1,8 +1,8 @@
 """The functions that the programs' lines may use, for one ray and for many at once.
 
-The last of them select a ray's hit among its crossings with an object, correctly and incorrectly.
+The last functions select a ray's hit among its crossings with an object, correctly and incorrectly.
 
-A number is an array (..., 1), a vector (..., 3), so that `x*u` is written as in a formula.
+A number is an array (..., 1) and a vector (..., 3), so that `x*u` reads as in a formula.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The user that a student's program runs as: `--as USER`, for root on Linux."""
+"""The user account that runs a student's program: `--as USER`, for root on Linux."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _REMEDY = "make a user for the check alone: useradd --system student"
 
 @dataclass(frozen=True)
 class Account:
-    """A user without rights, who had no processes when the check began."""
+    """An unprivileged user, who had no processes when the check began."""
 
     name: str
     user: int
@@ -32,7 +32,7 @@ class Account:
         return {"user": self.user, "group": self.group, "extra_groups": []}
 
     def kill(self) -> bool:
-        """Kill all processes of this user. Return False if some are still running in the end."""
+        """Kill all processes of this user. Return False if some are still running."""
         end = time.monotonic() + _KILLING_S
         while self.running():
             if time.monotonic() > end:
@@ -56,7 +56,7 @@ class Account:
         return False
 
     def check_reach(self, read: Sequence[Path], written: Sequence[Path]) -> None:
-        """Raise LucidaError if this user could read the former files, or replace the latter."""
+        """Raise LucidaError if this user can read one of `read`, or replace one of `written`."""
         for path in map(Path.resolve, read):
             entered = all(self._may(folder, _EXECUTE) for folder in path.parents)
             if entered and self._may(path, _READ):

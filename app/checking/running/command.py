@@ -22,7 +22,7 @@ class CommandStudent(ProgramStudent):
 
     Each run restarts the program, writes all calls and closes its input.
 
-    command: words and quotes as in a shell, without a shell's other features.
+    command: words and quotes as in a shell, without its other features.
     """
 
     def __init__(

@@ -27,7 +27,7 @@ _GARBLED = "it wrote into a file of ours: one that it has not opened itself"
 
 
 class NotRunnableError(LucidaError):
-    """A file that answers no calls. output: its output up to that point."""
+    """The file cannot answer calls. output: its output up to that point."""
 
     def __init__(self, failure: Failure, output: str) -> None:
         super().__init__("", failure.text)
@@ -38,7 +38,7 @@ class FileStudent(ProgramStudent):
     """A student's Python file, read once, on first use.
 
     One process serves all calls until one of them ends it; the next run then starts another. Call
-    close(): nothing else ends the process while this one lives.
+    close(), because nothing else ends the process before this one exits.
 
     python: the interpreter; "" for this process's own.
     """
@@ -134,7 +134,7 @@ class FileStudent(ProgramStudent):
             return None
         except ProgramOverError as error:
             over = error
-        except (ValueError, LookupError, TypeError, RecursionError):  # not written by our code
+        except (ValueError, LookupError, TypeError, RecursionError):  # not from our code
             over = ProgramOverError("ended", _GARBLED)
         number = len(values)
         call, place, remedy = calls[number], "while the file is imported", _MAIN

@@ -26,7 +26,7 @@ _MOST_ANSWERS = 1 << 28  # bytes of one request's answers
 _LARGEST_FILE = 1 << 26  # bytes; its printed text is a file, too
 _MOST_PROCESSES = 256  # of a user of its own
 _ENDING_S = 1.0  # for a program to end once it has closed its answers
-# For such small calls, threads of libraries only cost time. And no window.
+# Libraries' threads only cost time in such small calls. No window may open.
 _ENVIRONMENT = {
     **dict.fromkeys(("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"),
     "MALLOC_ARENA_MAX": "2",
@@ -41,7 +41,7 @@ DISHONEST = (
 
 
 class ProgramOverError(Exception):
-    """No more answers will come. kind, text: as in Failure; the text follows the program's name."""
+    """No more answers will follow. kind, text: see Failure; the text follows the program's name."""
 
     def __init__(self, kind: Kind, text: str) -> None:
         super().__init__(text)
@@ -51,7 +51,7 @@ class ProgramOverError(Exception):
 class StudentProgram:
     """A running program, in a process group of its own. Raises OSError if it cannot be started.
 
-    Exit status 126 or 127: there is no such program, or it is not executable.
+    Exit status 126 or 127 means that there is no such program, or that it is not executable.
 
     folder: its working directory.
     account: the user that it runs as; None for this process's own.
@@ -115,7 +115,7 @@ class StudentProgram:
         raise ProgramOverError("ended", f"it {how}")
 
     def output(self) -> str:
-        """Return what was printed since the last call; of much text, the end."""
+        """Return the text printed since the last call, or the end of a long one."""
         if self._printed.closed:
             return ""
         size, begin = os.fstat(self._printed.fileno()).st_size, self._told
@@ -140,7 +140,7 @@ class StudentProgram:
                 if sys.platform == "win32":
                     self._process.kill()
                 else:
-                    with contextlib.suppress(OSError):  # all have ended
+                    with contextlib.suppress(OSError):  # all processes have ended
                         os.killpg(self._process.pid, signal.SIGKILL)
                 self._survived = self._account is not None and not self._account.kill()
                 self._process.wait()
@@ -148,7 +148,7 @@ class StudentProgram:
             return not self._survived
 
     def close(self) -> bool:
-        """End the program, and forget what it printed. Return end()'s result."""
+        """End the program, and discard its output. Return end()'s result."""
         has_ended = self.end()
         self._printed.close()
         return has_ended
@@ -175,7 +175,7 @@ class StudentProgram:
 class ProgramStudent:
     """Base class of students whose answers come from a program, one at a time.
 
-    limits: of each run.
+    limits: the limits of each run.
     account: the user that the program runs as; None for this process's own.
     survived: True if something that it started may still be running.
     """
@@ -194,7 +194,7 @@ class ProgramStudent:
         raise NotImplementedError
 
     def call(self, calls: Sequence[Call]) -> Run:
-        """Run all calls in order, and block until they are done. May be called again; the time
+        """Run all calls in order, and block until they are done. It may be called again; the time
         limit applies to each run.
         """
         raise NotImplementedError
@@ -234,13 +234,13 @@ class ProgramStudent:
 
 
 def _limited(command: Sequence[str], limits: Limits, has_account: bool) -> Sequence[str]:
-    """Return the command, run by a shell that limits it and what it starts."""
+    """Wrap the command in a shell that limits it and its child processes."""
     if sys.platform == "win32":
         return command
     orders = [
         "ulimit -c 0",
         f"ulimit -f {_LARGEST_FILE >> 9}",  # blocks of 512 bytes
-        f"ulimit -d {limits.memory_mb << 10}",  # KiB; not what is only reserved, as by Node.js
+        f"ulimit -d {limits.memory_mb << 10}",  # KiB; ignores reserved memory, as of Node.js
     ]
     if has_account:  # otherwise, all processes of this process's user would count
         orders.append(f"ulimit -u {_MOST_PROCESSES} || ulimit -p {_MOST_PROCESSES}")  # bash, dash
@@ -261,7 +261,7 @@ def told_call(call: Call, longest: int = 80) -> str:
 
 
 def _told_status(status: int | None) -> str:
-    """Describe how a program ended, from its exit status; -9 means signal 9."""
+    """Describe the end of a program from its exit status; -9 means signal 9."""
     if status is None:
         return "closed what it answers through"
     if status >= 0:
@@ -270,5 +270,5 @@ def _told_status(status: int | None) -> str:
 
 
 def whole_number(text: str) -> int | float:
-    """Return an integer of an answer. Integers of 18 or more characters become floats."""
+    """Parse an integer of an answer. Integers of 18 or more characters become floats."""
     return int(text) if len(text) < 18 else float(text)

@@ -1,7 +1,7 @@
-"""Runs a student's Python file in a child process: reads calls, and writes their answers.
+"""Run a student's Python file in a child process: read calls, and write their answers.
 
 file.py passes this text to `python -c`, perhaps of another installation (3.9 or newer), so it
-imports the standard library alone. Requests are lines of JSON on standard input: the file, then
+imports only the standard library. Requests are lines of JSON on standard input: the file, then
 lists of calls. Each answer is a line that begins with a letter: a, the names of the file's
 functions, or a call's value; f, a failure.
 """
@@ -21,7 +21,7 @@ import types
 _LONGEST_LINE = 300
 _LAST_FRAMES = 12  # of a long traceback
 _NAMED_PARTS = (("origin", "direction"), ("u", "v", "w"), ("x", "y", "z", "w"), ("x", "y", "z"))
-_LETTERS = {"e": "eye", "d": "distance"}  # the lecture's, for these fields
+_LETTERS = {"e": "eye", "d": "distance"}  # the lecture's letters for these fields
 
 
 def main():
@@ -38,7 +38,7 @@ def main():
 class Channel:
     """Copies of standard input and output, for requests and answers.
 
-    For the student's code, standard input is empty, and all printed text goes to standard error.
+    The student's code has an empty standard input, and all printed text goes to standard error.
     """
 
     def __init__(self):
@@ -89,7 +89,7 @@ class StudentFile:
         sys.argv[:] = [self._path]
         code = compile(self._source, self._path, "exec", dont_inherit=True)
         text = self._source.decode("utf-8", "replace")
-        # For tracebacks: the file may be saved in the meantime.
+        # Keep the text for tracebacks, because the file may be saved in the meantime.
         linecache.cache[self._path] = (len(text), None, text.splitlines(True), self._path)
         sys.modules[self._module.__name__] = self._module
         exec(code, self._module.__dict__)
@@ -97,7 +97,7 @@ class StudentFile:
         return [name for name, value in values if callable(value) and not name.startswith("__")]
 
     def called(self, name, arguments):
-        """Return what a function returns. Raises whatever it raises."""
+        """Return a function's result. Raises whatever it raises."""
         return self._module.__dict__[name](*arguments)
 
     def answer(self, run, *arguments):

@@ -1,6 +1,6 @@
 """The pictures of an answer on the screen: the given one and the correct one.
 
-Includes the thread that makes them, their textures, and the clicked pixel.
+This module runs the thread that makes them, and keeps their textures and the clicked pixel.
 """
 
 from __future__ import annotations
@@ -46,9 +46,7 @@ class CodePictures:
 
 
 class PicturesShown:
-    """The pictures of a report; call follow() once a frame. pictures: the ones on screen; None for
-    none.
-    """
+    """The pictures of a report. Call follow() once a frame. pictures: those on screen, or None."""
 
     def __init__(self, host: Host, context: moderngl.Context) -> None:
         self._painter: RayPictures[CodePictures] = RayPictures("lucida-your-pictures", host.animate)
@@ -62,7 +60,7 @@ class PicturesShown:
 
     @property
     def expected(self) -> bool:
-        """True if there are pictures, or will be: their space is reserved."""
+        """True if there are pictures or will be, so that their space is reserved."""
         return bool(self.pictures or self._painter.busy or self._painter.error)
 
     def begin_frame(self) -> None:
@@ -91,7 +89,7 @@ class PicturesShown:
         self._upload(self._uploads, self.pictures)
 
     def draw(self, host: Host, report: CodeReport, room: ImVec2, marked: Pixel | None) -> None:
-        """Draw the pictures, or why there are none yet. A click marks a pixel in all views.
+        """Draw the pictures, or the reason why there are none. A click marks a pixel in all views.
 
         marked: see marked_pixel().
         """
@@ -103,7 +101,7 @@ class PicturesShown:
             wrapped(text, theme.ERROR if error is not None else theme.DIM)
             imgui.end_child()
             return
-        is_of_rays = rays is not None and pictures.size == rays.size  # not of those before
+        is_of_rays = rays is not None and pictures.size == rays.size  # not of earlier rays
         pixel, color = marked if is_of_rays else None, role_color("other")
         given, right = map(self._uploads.get, PICTURES)
         grid = [

@@ -25,18 +25,18 @@ Floats = NDArray[np.float64]
 
 RAY = "viewing-ray"  # the kind of task whose function makes pictures of a camera
 RAY_TASK = next(task for task in BUILTIN if task.kind == RAY)
-EXACT = 1e-6  # pixels: of a corner between four, the upper left one
+EXACT = 1e-6  # in pixels: a corner belongs to its upper left pixel
 ENDLESS = ("time", "memory", "ended")  # after these, a file is not run for another camera
 
 
 @dataclass(frozen=True, eq=False)
 class CodeRays:
-    """The rays of an image, as a function computes them and as they should be.
+    """The rays of an image, as a function computes them, and the correct rays.
 
     size: (width, height).
-    given, right: origins and directions, (H, W, 2, 3); NaN where missing.
+    given, right: origins and directions, (H, W, 2, 3); NaN if missing.
     wrong: the wrong rays among those returned, bool (H, W).
-    result: that of a check.
+    result: the result of the check.
     """
 
     task: CheckTask
@@ -59,7 +59,7 @@ def ray_task_for(camera: Camera) -> CheckTask:
 
 
 def cases_for(task: CheckTask, camera: Camera, size: Size) -> list[CheckCase]:
-    """Return the case of each pixel. camera: for that size."""
+    """Return the case of each pixel. camera: the camera for that size."""
     return cases_of(task, Shot(camera, size, camera.eye, camera.v))
 
 
@@ -95,8 +95,8 @@ def canvas_pixel(
 class CodeQuestion:
     """A question to a file.
 
-    version: of the file; another one after each save.
-    camera, size: for the pictures.
+    version: the file's version, which changes with each save.
+    camera, size: the camera and the size of the pictures.
     """
 
     path: str
@@ -105,7 +105,7 @@ class CodeQuestion:
     size: Size
 
     def differs_in_camera(self, other: CodeQuestion) -> bool:
-        """Return True if it is the same as the other one, except for the camera."""
+        """Return True if the questions differ only in the camera."""
         return replace(self, camera=other.camera) == other
 
 
@@ -113,10 +113,10 @@ class CodeQuestion:
 class CodeReport:
     """The findings on a file.
 
-    rays: for the window's camera; None if the file answers nothing.
-    results: of the tasks that have been tried with other cameras, by name.
-    failure: the reason why the file answers nothing, or not all.
-    output: the text that it printed.
+    rays: the rays for the window's camera; None if the file answers nothing.
+    results: the results of tasks that were tried with other cameras, by name.
+    failure: the reason for missing answers.
+    output: the text that the file printed.
     """
 
     question: CodeQuestion
@@ -127,12 +127,12 @@ class CodeReport:
 
     @property
     def halted(self) -> bool:
-        """True if the file should not run again by itself: it would only take as long again."""
+        """True if the file should not rerun by itself, because it would take as long again."""
         return self.failure is not None and self.failure.kind in ENDLESS
 
     @property
     def untried(self) -> CheckTask | None:
-        """The task to try with other cameras; None if there is none, or it has been tried."""
+        """The task to try with other cameras; None if there is none or it has been tried."""
         if self.rays is None or self.failure or self.rays.task.name in self.results:
             return None
         return self.rays.task

@@ -29,12 +29,12 @@ from .runs import CodeRuns
 from .words import ToldLine, ToldRole
 
 CodeWish = Literal["", "open", "starter", "run", "stop"]
-RUNNING_S = 0.3  # a run that takes longer shows how far it is
-TEXT_PART = 0.42  # of the height, for the words below the pictures
+RUNNING_S = 0.3  # a longer run shows its progress
+TEXT_PART = 0.42  # fraction of the height for the words below the pictures
 
 INVITATION = (
     "Write the ray of a pixel yourself. Lucida runs your Python file on the camera that you see"
-    " here, again whenever you save it, and shows your picture beside the correct one."
+    " here, again whenever you save it, and shows your picture next to the correct one."
 )
 SIGNATURE = "def {}:\n    ...\n    return {}"
 TRUST = (
@@ -54,7 +54,7 @@ def invitation(fonts: Fonts) -> CodeWish:
     wish: CodeWish = ""
     if imgui.button("Write a file to begin with..."):
         wish = "starter"
-    tip("a Python file with an empty function, and what it is to return")
+    tip("a Python file with an empty function and its task")
     follow(button_width("Open a Python file..."))
     if imgui.button("Open a Python file..."):
         wish = "open"
@@ -97,15 +97,15 @@ def head(
 
 
 def pictures_room() -> ImVec2:
-    """Return the space for the pictures: all but that of the words below."""
+    """Return the space for the pictures, above the words."""
     room, em = imgui.get_content_region_avail(), imgui.get_font_size()
     words = max(TEXT_PART * room.y, min(8 * em, 0.6 * room.y))
     return ImVec2(room.x, room.y - words - imgui.get_style().item_spacing.y)
 
 
 def words(lines: Sequence[ToldLine], fonts: Fonts) -> str:
-    """Draw the findings in the rest of the view, the verdict above all. Scroll them if they do not
-    fit. Return the title of the lecture's step whose link was clicked, or "".
+    """Draw the findings in the rest of the view, the verdict on top, and let them scroll if
+    necessary. Return the title of the lecture's step whose link was clicked, or "".
     """
     title = ""
     if imgui.begin_child("told", imgui.get_content_region_avail()):
@@ -137,5 +137,5 @@ def _canvas(chosen: Size) -> Size:
             if imgui.selectable(name(size), size == chosen)[0]:
                 chosen = size
         imgui.end_combo()
-    tip("the pictures' size: one call a pixel")
+    tip("the pictures' size: one call per pixel")
     return chosen

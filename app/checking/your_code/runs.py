@@ -1,7 +1,6 @@
-"""Runs a student's file in the background: for the window's camera, then for others.
+"""Run a student's file in the background, for the window's camera and then for others.
 
-The newest question wins. An overtaken run is ended if it takes long. Other cameras are tried once
-the window's has been.
+The newest question wins. A run of an older question is ended if it takes long.
 """
 
 from __future__ import annotations
@@ -27,17 +26,17 @@ OVERTAKEN_S = 0.3  # a run of an older question is ended if it takes longer
 
 @dataclass(frozen=True)
 class _Work:
-    """A run. question: None if its result is not wanted any more."""
+    """A run. question: None if its result is no longer needed."""
 
     question: CodeQuestion | None
     begun_s: float
 
 
 class CodeRuns:
-    """The runs of a file, one after another. Methods are for the window's thread.
+    """The runs of a file, one after another. Call methods on the window's thread.
 
-    make: makes the student for a file.
-    report: the newest; None before the first.
+    make: creates the student for a file.
+    report: the newest report; None before the first.
     """
 
     def __init__(self, make: Callable[[Path, Limits], FileStudent] = FileStudent) -> None:
@@ -56,15 +55,15 @@ class CodeRuns:
 
     @property
     def running_s(self) -> float:
-        """The time that the file has been running, in seconds; 0 if it is not."""
+        """The time for which the file has been running, in seconds; 0 if it is not."""
         return time.monotonic() - self._work.begun_s if self._work is not None else 0.0
 
     def follow(self, question: CodeQuestion) -> None:
-        """Ask a question, take the answer of the run that has ended, and begin the next one. Call
+        """Ask a question, take the answer of the run that has ended, and begin the next run. Call
         once a frame.
 
-        A file that has run endlessly is not run again for another camera, but only for something
-        that the user asks for here: another version or size.
+        A file that did not end is not run again for another camera, but only for another version or
+        size.
         """
         self.poll()
         self._newest, work = question, self._work
@@ -87,13 +86,11 @@ class CodeRuns:
             self.report = _report(work.question, outcome)
 
     def stop(self) -> None:
-        """End the current run. Its report says so, and nothing else is tried."""
+        """End the current run. Its report mentions this, and nothing else is tried."""
         self._stopped = True
 
     def forget(self) -> None:
-        """Discard all results and end the process, because there is no file any more, or to start
-        over.
-        """
+        """Discard all results and end the process, because there is no file or to start over."""
         self._newest = self.report = self._file = None
         if self._work is not None:
             self._work = replace(self._work, question=None)
@@ -106,7 +103,7 @@ class CodeRuns:
         self._background.close()
 
     def _wanted(self) -> Callable[[FileStudent], CodeReport] | None:
-        """Return the next run; None if everything that is asked for is known."""
+        """Return the next run; None if all answers are known."""
         question, report = self._newest, self.report
         if question is None:
             return None
@@ -130,7 +127,7 @@ class CodeRuns:
 
 
 def _report(question: CodeQuestion, outcome: Outcome[CodeReport]) -> CodeReport:
-    """Return the report on a run, also if it failed."""
+    """Return the report on a run, even if it failed."""
     match outcome.error:
         case None:
             assert outcome.value is not None

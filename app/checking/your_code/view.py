@@ -1,7 +1,7 @@
 """The view "Your code": a student's file, run for the window's camera while it is being edited.
 
-It decides which files may run, what they are asked, and what the outside view shows. See model.py
-for the questions, panel.py for the layout, code_pictures.py for the pictures.
+The view decides which files may run, their questions, and the drawing in the outside view. See
+model.py for the questions, panel.py for the layout, code_pictures.py for the pictures.
 """
 
 from __future__ import annotations
@@ -58,10 +58,10 @@ class YourCode(Instrument):
         self.runs = CodeRuns()
         self.pictures: PicturesShown | None = None
         self._watch = FilesWatch({})
-        self._watched = ""  # the file; the Python files beside it are watched, too
+        self._watched = ""  # the file; the Python files next to it are watched, too
         self._version = 0  # of these files
         self._agreed: set[str] = set()  # files that the user has opened in this window
-        self._written: list[str] = []  # files to begin with that have been written
+        self._written: list[str] = []  # starter files that have been written
         self._items = Memo(_outside_items)
         self.seen = False
         self._opened_for: tuple[str, str] | None = None  # the outside view, for a wrong answer
@@ -128,14 +128,14 @@ class YourCode(Instrument):
         self._outside.show(YOUR_CODE, ())
 
     def _may_run(self, host: Host, path: str) -> bool:
-        """Return True if the user has opened the file, in this window or earlier: it is a recent
-        file then.
+        """Return True if the user has opened the file, in this window or, as the recent files show,
+        earlier.
         """
         return path in self._agreed or Path(path) in host.files.recent.entries
 
     def _saved_version(self, host: Host, path: str) -> int:
-        """Return the number of the file's version: another one after it, or a Python file beside
-        it, was saved.
+        """Return the number of the file's version, which changes when the file or a Python file
+        next to it is saved.
         """
         if self._watch.changed(time.monotonic()) or path != self._watched:
             self._watched, self._version = path, self._version + 1
@@ -184,11 +184,11 @@ class YourCode(Instrument):
         items = self._items(rays, marked, end, first)
         self._outside.show(YOUR_CODE, items)
         place = report.question.path, rays.task.name
-        if place != self._opened_for:  # once: the user may close it again
+        if place != self._opened_for:  # only once, because the user may close it
             self._opened_for = place
             host.show(self._outside.name)
 
-    # Requests of the user.
+    # User requests.
 
     def _untrusted(self, host: Host, path: str) -> CodeWish:
         """Draw a file that a lecture has named, which the user may read and run."""

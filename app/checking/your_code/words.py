@@ -28,7 +28,7 @@ class ToldLine:
     """A line of words.
 
     role: its meaning, which determines its look. read: a link to the lecture's step that it names.
-    code: in a fixed-width font.
+    code: True for a fixed-width font.
     """
 
     role: ToldRole
@@ -60,7 +60,7 @@ def _of_failure(failure: Failure) -> Iterator[ToldLine]:
 
 
 def _of_rays(rays: CodeRays, tried: TaskResult | None) -> Iterator[ToldLine]:
-    """Yield what the pictures show; then why, or the result of other cameras."""
+    """Yield the findings in the pictures, then the reason, or the result of other cameras."""
     is_wrong = rays.result.status == "wrong"
     if is_wrong:
         yield ToldLine("bad", f"{rays.wrong.sum()} of {rays.wrong.size} rays are wrong.")

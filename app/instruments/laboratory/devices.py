@@ -15,8 +15,8 @@ from .sheet import BLACK, WHITE, YELLOW, Sheet, between, circle, mixed, reached,
 ROOM, STEP = (15.5, 9.6), (16.0, 12.0)  # the size of each drawing, and the step to the next
 FINE = 96  # points of outlines that morph into each other
 EDGE = 0.16
-BODY, LENS = rounded((3.6, 2.4), (8.2, 5.2), 0.6), circle((7.7, 5.0), 1.9)  # of the camera
-FRAME = np.array([(7.6, 1.4), (11.0, 2.4), (11.0, 8.2), (7.6, 7.2)])  # of the virtual camera
+BODY, LENS = rounded((3.6, 2.4), (8.2, 5.2), 0.6), circle((7.7, 5.0), 1.9)  # parts of the camera
+FRAME = np.array([(7.6, 1.4), (11.0, 2.4), (11.0, 8.2), (7.6, 7.2)])  # the virtual camera's image
 EYE = (3.4, 4.9)
 
 

@@ -15,7 +15,7 @@ COLUMNS, ROWS = 4, 3
 FRAME, ACROSS, DOWN = np.array((5.6, 4.6)), np.array((1.35, 0.85)), np.array((0.0, 3.1))
 PIXEL = (1, 2)  # row and column from 0
 EYE = np.array((1.2, 14.6))
-ALONG = (1.7, 2.15, 2.65, 3.2)  # of the points, in multiples of the way from the eye to the pixel
+ALONG = (1.7, 2.15, 2.65, 3.2)  # the points, in multiples of the distance from the eye to the pixel
 AXES = {"x": (4.6, 1.5), "y": (0.0, -4.6), "z": (-3.4, 2.7)}
 ORIGIN = (20.5, 15.6)
 

@@ -22,16 +22,16 @@ from .sheet import LIGHTS, WALL, YELLOW, Sheet, mixed, reached, rectangle, round
 Floats = NDArray[np.float32]
 Place = tuple[float, float, float, float, float]  # middle x, y; half the width, height; rounding
 
-FADING = 0.1  # of a cycle, until a phosphor's light has fallen to 1/e; real ones are quicker
+FADING = 0.1  # the share of a cycle in which a phosphor's light falls to 1/e; real ones are faster
 GRAY = 0.3
-DARKEST = 30  # of an element, as displayed
+DARKEST = 30  # the least displayed value of an element
 COLORS = np.array(
     [[(1, 1, 1), (1, 1, 0), (0, 1, 1), (0, 1, 0)],
      [(GRAY, GRAY, GRAY), (1, 0, 1), (1, 0, 0), (0, 0, 1)]], np.float32,
 )  # fmt: skip
 MARKED = (1, 0)  # the gray pixel
 MOMENTS = 240
-SIDE, LANE = 3.5, 0.95  # of a pixel, and of a chart of its light
+SIDE, LANE = 3.5, 0.95  # the sizes of a pixel, and of a chart of its light
 
 
 @dataclass(frozen=True)
@@ -64,7 +64,7 @@ def _fading(color: Floats, phase: float) -> Floats:
 
 
 def _mirrored(color: Floats, phase: float) -> Floats:
-    """Return the light of a mirror: on for a share of the third of the cycle of each colour."""
+    """Return the light of a mirror: it is on for a share of each colour's third of the cycle."""
     third = min(int(3 * phase), 2)
     light = np.zeros_like(color)
     light[..., third] = color[..., third] > 3 * phase - third

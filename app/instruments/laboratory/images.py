@@ -18,7 +18,7 @@ from .stored import kept
 
 # The shape of images: width and height. Two side by side are square.
 SHAPE, SQUARE = (3, 2), (1, 1)
-MOST_PX = 1 << 20  # of an image; in a larger rectangle its pixels are squares
+MOST_PX = 1 << 20  # per image; in a larger rectangle its pixels are squares
 NUMBERED = 12  # frames of at most this many pixels a side have numbers on them
 # Wavelengths in nm: the ends of the spectrum; the middle and the width of red, green and blue.
 FIRST_NM, LAST_NM = 400.0, 700.0

@@ -1,4 +1,4 @@
-"""The kinds of raster image that the lecture names, and what each costs."""
+"""The kinds of raster image that the lecture names, and their costs."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from .sheet import BLACK, LIGHTS, WALL, between, circle, mixed, reached, rectang
 # The centres of red, green and blue at distance 1 from the middle: an upright triangle.
 APART = ((0.0, -1.0), (-0.866, 0.5), (0.866, 0.5))
 CENTER, RADIUS = (13.0, 8.9), 3.9
-DISTANCES = 4.6, 2.3, 0.0  # of each disc from the middle, in the builds
+DISTANCES = 4.6, 2.3, 0.0  # from each disc to the middle, in the three builds
 WALL_BOTTOM, LENS_Y = 16.4, 20.0
 # Where the words for two discs are, from the middle: away from red, green and blue.
 OUTSIDE = ((0.0, 6.7), (7.2, -3.35), (-7.2, -3.35))

@@ -13,7 +13,7 @@ from .sheet import BLACK, YELLOW, Point, Sheet, between, mixed, reached
 COUNT = 10  # pixels in a row, and in a column
 PIXEL = (3, 7)  # row and column, from 1
 CELL, CORNER = 1.3, np.array((16.2, 2.9))
-ROW_Y = 10.4  # of the row of pixels below the corner, before it is in its image
+ROW_Y = 10.4  # the y of the row of pixels before it moves into its image
 ACROSS = ("j - 0.5", "/ W", "- 0.5 = u")
 DOWN = ("i - 0.5", "/ H", "- 0.5", "v")
 TEXT = 1.22

@@ -16,7 +16,7 @@ from lucida.renderer.images.display import Bytes
 from .page import Page
 from .sheet import Look, Sheet, between, circle, rectangle
 
-SIDE_PX, PIXELS = 512, 128  # of the drawing, and of its raster image
+SIDE_PX, PIXELS = 512, 128  # the sizes of the drawing and of its raster image
 SAMPLES = 4  # per side of a pixel
 FOCUS = (0.8, 0.635)  # the point that stays in the middle, as fractions of the drawing
 PANE = 15.0

@@ -27,8 +27,8 @@ from lucida.renderer.images.display import Bytes
 
 Point = tuple[float, float]
 
-WIDTH = 0.09  # of a line
-CORNERS = 72  # of a disc
+WIDTH = 0.09  # a line's width
+CORNERS = 72  # per disc
 HEAD = 0.7, 0.28  # the length of an arrow's head, and half of its width
 BLACK, WHITE, YELLOW = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.94, 0.89, 0.26)
 WALL = (0.05, 0.055, 0.065)  # a lit wall, and dark displays, in every theme
@@ -54,7 +54,7 @@ class Look:
 
 
 class Sheet:
-    """Collects the parts of a figure.
+    """A collector of a figure's parts.
 
     A unit is the size of text; y points down. extent: the width and height in units, which are
     fitted to the sheet and centred. low: the point at the extent's upper left corner.

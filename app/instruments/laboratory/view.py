@@ -1,4 +1,4 @@
-"""The image laboratory: drawings of what an image is, as large as its window."""
+"""The image laboratory: drawings that explain images, as large as its window."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ from .sheet import Point, Sheet
 LABORATORY = "Laboratory"
 SMALLEST_PX = 60
 NO_IMAGE = np.zeros((1, 1, 3), np.float32)
-KEY_STEP = 0.02  # of the image's width and height
+KEY_STEP = 0.02  # times the image's width and height
 
 
 class LaboratoryView(Instrument):
@@ -119,7 +119,7 @@ class LaboratoryView(Instrument):
 
 
 def toolbar(host: Host) -> LaboratoryOptions:
-    """Draw the switches. Return the present options."""
+    """Draw the switches. Return the current options."""
     options = host.state.options.laboratory
     names = list(PAGES)
     room = imgui.get_content_region_avail().x
@@ -141,7 +141,7 @@ def toolbar(host: Host) -> LaboratoryOptions:
 
 
 def _slider(label: str, value: float, limits: tuple[float, float], form: str) -> float:
-    """Draw a slider in the same row if there is room. Return its value."""
+    """Draw a slider in the same row if there is space. Return its value."""
     width, label_px = 8 * imgui.get_font_size(), imgui.calc_text_size(label).x
     follow(width + label_px)
     room = imgui.get_content_region_avail().x - imgui.get_style().item_inner_spacing.x - label_px
@@ -150,7 +150,7 @@ def _slider(label: str, value: float, limits: tuple[float, float], form: str) ->
 
 
 def _drawn_image(rasterizer: WindowRasterizer, request: ImageRequest) -> Image:
-    """Return the rasterizer's image in linear light: float32 (H, W, 3). Waits for the GPU."""
+    """Return the rasterizer's image in linear light: float32 (H, W, 3). Wait for the GPU."""
     texture = rasterizer.draw(request, LABORATORY).color
     width, height = request.size
     values = np.frombuffer(texture.read(), np.float32).reshape(height, width, 4)

@@ -45,10 +45,10 @@ from .pixel_plane import pixel_items
 from .ray_drawing import half_line, meetings, rays_to
 from .simple_camera import simple_camera
 
-RIGHT_ANGLE = 0.2  # a side of its mark, in lengths of the axes
+RIGHT_ANGLE = 0.2  # the side of its mark, in lengths of the axes
 ABOVE_HANDLES = 0.8  # the height of a failure's message, in lengths of w
 WORLD_UP = np.array([0.0, 1.0, 0.0])
-LENS_PARTS = (6, 2, CURVE)  # of a side of a lens's view volume: faces, edges, curves
+LENS_PARTS = (6, 2, CURVE)  # faces, edges and curves per side of a lens's view volume
 
 
 @dataclass(frozen=True)
@@ -191,7 +191,7 @@ def _basis(camera: Camera, options: OutsideOptions, arrow: float) -> list[Item]:
             items += named_arrow(name, name, f"{length}vec({name})", eye, tip)
     if has_target:
         items += _target(eye, np.asarray(options.target, float), share["up"] * up)
-    if not has_target or not options.basis:  # an exercise asks for it
+    if not has_target or not options.basis:  # an exercise asks the student for it
         return items
     if fails:
         at = eye + ABOVE_HANDLES * np.linalg.norm(w) * WORLD_UP

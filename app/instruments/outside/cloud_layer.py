@@ -15,8 +15,8 @@ from .paint import line_color
 from .screen import OutsideScreen
 
 NEAREST = 1e-3  # times the cloud's reach: points nearer to the outside camera are not drawn
-CASING_PX = 0.9  # on each side of a line, in widths of a line
-POINT_PX, FEW = 2.0, 30_000  # a point's width; half as much again if there are fewer points
+CASING_PX = 0.9  # a casing's width on each side of a line, in widths of the line
+POINT_PX, FEW = 2.0, 30_000  # a point's width; 1.5 times that for fewer points
 
 
 class CloudLayer:

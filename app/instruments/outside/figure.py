@@ -28,12 +28,12 @@ Bools = NDArray[np.bool_]
 Color = tuple[float, float, float]  # red, green, blue as displayed, 0 to 1
 
 LETTER_PX, STRONG_PX = 16.0, 24.0  # the sizes of labels and of vectors' names, in symbols
-ROOM, STRONG_ROOM = 13.0, 7.0  # from a point to its text, likewise
-LETTER_WIDTH = 0.56  # in parts of its size
+ROOM, STRONG_ROOM = 13.0, 7.0  # the spaces between a point and its text, in symbols
+LETTER_WIDTH = 0.56  # relative to its size
 BEHIND = 1.001  # times the scene's t
-CORNERS = 48  # of a disc
-DASHES = (5.0, 4.0)  # drawn and not drawn, in widths of lines
-RIM = 0.18  # around letters, in parts of their size
+CORNERS = 48  # per disc
+DASHES = (5.0, 4.0)  # lengths of a dash and a gap, in widths of lines
+RIM = 0.18  # the rim's width around letters, relative to their size
 WHITE = (1.0, 1.0, 1.0)  # the colour of rims on a transparent ground
 
 
@@ -183,8 +183,8 @@ def _strokes(part: Strokes, ink: Color, limit: Depths, is_parallel: bool) -> Ite
 def divided(
     points: Floats, depth: Floats, limit: Depths, is_parallel: bool
 ) -> tuple[Floats, Bools]:
-    """Divide segments (n, 2, 2) with depths (n, 2) where they become hidden or visible, to about a
-    pixel. Return the pieces (m, 2, 2), and (m,) True if hidden.
+    """Divide segments (n, 2, 2) with depths (n, 2), to about a pixel, at the points where they
+    become hidden or visible. Return the pieces (m, 2, 2), and (m,) True if hidden.
     """
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     counts = np.maximum(np.ceil(lengths), 1).astype(int)

@@ -27,7 +27,7 @@ from .screen import OutsideScreen, image_plane
 from .view import OutsideView
 
 PLACE = "Figure"  # see Rasterizer.draw
-GRID_PARTS = 16  # of a side of the image plane
+GRID_PARTS = 16  # per side of the image plane
 FINE, LARGE_PX = 2, 1 << 21  # image pixels per side of a page pixel; 1 for larger pages
 
 

@@ -28,8 +28,8 @@ from .frustum import image_point, on_ray
 from .pixel_drawing import pixel_square
 from .simple_camera import simple_ray
 
-GROWS = 0.7  # of a stage's time; then it rests, for the class to look
-ENDS = (r"\text{origin}", r"\text{direction}")  # a ray's, as a lecture may write them
+GROWS = 0.7  # the growing share of a stage's time; the class can look in the rest
+ENDS = (r"\text{origin}", r"\text{direction}")  # names of a ray's parts that a lecture may write
 # The part that a stage adds to a formula of the probe or of the lecture.
 _LIT = {
     "pixel": "(i, j)",

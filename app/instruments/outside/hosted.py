@@ -13,7 +13,7 @@ from .mouse import Scope
 
 
 class Hosted:
-    """The guest of one view. view: the view's name. guest: it sets itself here; None for none."""
+    """The guest of one view. view: the view's name. guest: set by the guest itself, or None."""
 
     def __init__(self, view: str) -> None:
         self._view = view
@@ -38,7 +38,7 @@ class Hosted:
     ) -> bool:
         """Offer the guest a click on the current item. Return True if it took the click.
 
-        clicked: the button was released. number: the object under the mouse.
+        clicked: True if the button was released. number: the object under the mouse.
         """
         left = imgui.MouseButton_.left
         double = imgui.is_item_activated() and imgui.is_mouse_double_clicked(left)

@@ -15,7 +15,7 @@ from .frustum import image_point, point_at
 from .pixel_drawing import pixel_square
 
 APART_PX = 22.0  # a pixel and its ideal point are named if they are farther apart on the screen
-STEEPEST_DEG = 80.0  # from the axis: rays that are steeper meet the image plane too far away
+STEEPEST_DEG = 80.0  # steeper rays meet the image plane too far from the axis
 OUTSIDE = "outside of the lens"
 
 

@@ -31,7 +31,7 @@ from .mouse import Area, Scope
 from .screen import NEAREST, OutsideScreen
 
 NOTHING = np.zeros((0, 3))
-STILL_S = 0.25  # without a change of the other camera, before the view follows it
+STILL_S = 0.25  # the view follows the other camera after it has been still for so long
 ROOMY_PX = 330.0  # a smaller view has smaller symbols
 TRIAD_PX = 47.5  # half of the axes' square in the upper right corner
 
@@ -44,8 +44,8 @@ class Scopes:
 
     def __init__(self) -> None:
         self._fixed: tuple[object, ...] | None = None
-        self._inner: Camera | None = None  # of the scope
-        self._seen: Camera | None = None  # in the previous frame
+        self._inner: Camera | None = None  # the other camera of the scope
+        self._seen: Camera | None = None  # the other camera in the previous frame
         self._changed_s = 0.0
         self._scope: Scope | None = None
         self._is_in_picture = Memo(is_in_picture)

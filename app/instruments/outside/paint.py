@@ -31,8 +31,8 @@ from .figure import Color
 from .projected import Primitive, Shape, Strokes, Text
 
 DARK_GROUND = 0.35  # the lightest channel of a scene's dark background
-RIM: Rgb = (0.19, 0.19, 0.19)  # that of a label over white; others are darker
-PALEST = 0.45  # paler lines have no casing, which would outshine them
+RIM: Rgb = (0.19, 0.19, 0.19)  # the rim of a label over white; other rims are darker
+PALEST = 0.45  # paler lines have no casing, which would dominate them
 
 FIXED: dict[Role, ImVec4] = {
     "plane": theme.rgb("#f2f5f8"),

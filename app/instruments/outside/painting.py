@@ -17,11 +17,11 @@ from .figure import RIM, WHITE, Color, Figure, Label, Line, Picture, Polygon, da
 
 Point = tuple[float, float]
 Box = tuple[Point, Point]  # upper left and lower right corner
-THINNEST_PX = 1.0  # of lines on the screen
+THINNEST_PX = 1.0  # the least width of a line on the screen
 
 
 class Painter:
-    """Paints figures with ImGui. uploads: the textures of their pictures."""
+    """A painter of figures with ImGui. uploads: the textures of their pictures."""
 
     def __init__(self, draw: imgui.ImDrawList, fonts: Fonts, uploads: Uploads) -> None:
         self._draw, self._fonts, self._uploads = draw, fonts, uploads

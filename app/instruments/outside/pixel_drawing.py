@@ -29,8 +29,8 @@ def pixel_numbers(
 ) -> list[Item]:
     """Return the numbers of rows, at the left of the image plane, and of columns, above it.
 
-    base: the number of the first row and column. step: the least step between numbers. In images
-    with more than MOST_NUMBERED, only the first, the last and the marked pixel have numbers.
+    base: the number of the first row and column. step: the least step between numbers. Only the
+    first, the last and the marked pixel have numbers in images larger than MOST_NUMBERED.
     """
     left, _, _, top = camera.viewport
     items: list[Item] = []

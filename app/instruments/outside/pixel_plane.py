@@ -16,7 +16,7 @@ from lucida.renderer.camera.intrinsics import PixelOrigin
 from .diagram import Arrow, Dot, Item, Label, line
 from .frustum import image_point, plane_corners
 
-MOST_TICKS = 32  # of a side
+MOST_TICKS = 32  # per side
 
 
 def pixel_items(camera: Camera, size: Size, origin: PixelOrigin) -> tuple[Item, ...]:

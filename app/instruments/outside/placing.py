@@ -27,15 +27,15 @@ FARTHER = (0.0, 0.8, 1.8)
 # Costs of a place: half a turn, a height farther out, outside the view,
 # on another label, on a mark, a line through the text, per height of the text.
 TURNED, OUT, OUTSIDE, LABEL, MARK, CROSSED = 1.2, 0.8, 60.0, 40.0, 18.0, 3.0
-CELL = 0.15  # of the grid, in heights of a text
-DOT = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)  # of its radius
+CELL = 0.15  # the size of a grid cell, in heights of a text
+DOT = np.stack(np.meshgrid([-1, 0, 1], [-1, 0, 1]), axis=-1).reshape(-1, 2)  # times the radius
 # Places along a line, as many as turns: shares of its length, on both sides of it; and the costs of
 # the other side, and of the distance from the middle.
 SHARES = np.array([0.5, 0.4, 0.6, 0.3, 0.7, 0.2])
 OTHER_SIDE, SLID = 0.4, 1.0
 ALONG = 1.5  # space to a line, relative to that to a point: arrows have wide heads
 JUMP_PX = 60.0  # a point that has moved farther since the previous picture has jumped
-KEPT = 1.0  # by which another place must be better than the present one
+KEPT = 1.0  # the advantage that another place must have over the current one
 SPACE = 0.12  # around a text, in its heights
 
 
@@ -50,7 +50,7 @@ class Box:
 
 @dataclass
 class LabelPlacer:
-    """Places the labels of one view, and remembers their places in the previous picture."""
+    """A placer of one view's labels, which remembers their places in the previous picture."""
 
     _chosen: dict[Label, tuple[Spot, int]] = field(default_factory=dict)
     _size: tuple[float, float] = (0.0, 0.0)
@@ -78,7 +78,7 @@ class LabelPlacer:
         wide = np.array([(box.width, box.height) for box in boxes]) / 2
         wide += SPACE * np.array([[box.height] for box in boxes])
         around = np.concatenate([places - wide[:, None], places + wide[:, None]], axis=2)
-        areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all of one size
+        areas = (around[:, :1, 2:] - around[:, :1, :2]).prod(axis=2)  # all have one size
         inside = _overlap(around, np.array([(0.0, 0.0, *size)]))[..., 0] / areas
         costs = preferences + OUTSIDE * (1 - inside)
         height = max(box.height for box in boxes)
@@ -95,7 +95,7 @@ class LabelPlacer:
             self._chosen[label] = text.at, best
             x, y = places[number, best].tolist()
             (far_x, far_y), (wide_x, wide_y) = size, wide[number].tolist()
-            if 0 < text.at[0] < far_x and 0 < text.at[1] < far_y:  # of a point in sight
+            if 0 < text.at[0] < far_x and 0 < text.at[1] < far_y:  # its point is in sight
                 x = min(max(x, wide_x), max(far_x - wide_x, wide_x))
                 y = min(max(y, wide_y), max(far_y - wide_y, wide_y))
             centers[number] = x, y

@@ -145,7 +145,7 @@ def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
     if tip.visible:
         axis = (end - start) / length
         size = screen.symbol_px * screen.px_world(float(tip.spots[2]))
-        wide = HEAD * item.width * screen.unit_px / screen.symbol_px  # of thick lines
+        wide = HEAD * item.width * screen.unit_px / screen.symbol_px  # for thick lines
         head = min(max(item.head, wide) * size, 0.45 * length)
         end = end - head * axis
         base = screen.seen(end + 0.36 * head * _circle(axis))
@@ -175,7 +175,7 @@ def _filled(
 
 
 def _eye(item: Eye, screen: OutsideScreen) -> list[Primitive]:
-    """Return a white ball of constant size on the screen, with iris and pupil facing its gaze.
+    """Return a white ball of constant size on the screen, with iris and pupil along its gaze.
 
     Each is left out if the ball's edge would cut it: seen from the side it would be a wedge.
     """

@@ -17,7 +17,7 @@ from lucida.renderer.camera.image_plane import Size
 from .diagram import Dot, Item, Label, Role, Segments, line, named_dot, shares, term
 from .frustum import on_ray, plane_parameter, point_at
 
-BEFORE, LAST = -1.2, 4.0  # the least and the largest t that is drawn of a line
+BEFORE, LAST = -1.2, 4.0  # the least and the largest t of a line's drawing
 NAMED = 2.5  # the t at which the line's formula is written
 TICKS = (1.0, 2.0, 3.0)
 PALE = 0.35

@@ -20,7 +20,7 @@ from lucida.renderer.raster.overlay import Plane, plane_on_screen
 from .frustum import plane_corners
 
 GUARD = 4.0  # things farther out than this many images from the middle are cut off
-NEAREST = 1e-4  # the least distance to the outside camera, in parts of that to the scene
+NEAREST = 1e-4  # the least distance to the outside camera, relative to that of the scene
 
 
 class Seen(NamedTuple):

@@ -22,11 +22,11 @@ from .figure import DASHES, RIM, WHITE, Color, Figure, Inset, Label, Line, Part,
 
 FONTS = "Roboto, Helvetica, Arial, narrowed, sans-serif"  # narrowed: in lecture.css
 MONO = "Roboto Mono, Consolas, Menlo, monospace"
-MONO_WIDTH = 0.5  # of a letter, in parts of its size
+MONO_WIDTH = 0.5  # a letter's width, relative to its size
 ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 BLACK = (0.0, 0.0, 0.0)
 CASING, PALEST = 2.0, 0.45  # a casing's extra width, in units; paler lines have none
-BASELINE = 0.35  # below a line's middle, in parts of the font's size
+BASELINE = 0.35  # below a line's middle, relative to the font's size
 
 
 def png_address(pixels: Bytes) -> str:

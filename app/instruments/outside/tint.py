@@ -50,7 +50,7 @@ def repaint(draw: imgui.ImDrawList, first: int, colors: Mapping[Rgb8, ImVec4]) -
 
 def vertex_colors(draw: imgui.ImDrawList) -> NDArray[np.uint32]:
     """Return the colours of a draw list's vertices in place, (n,), opacity in the highest byte.
-    Valid until something more is drawn.
+    They are valid until something more is drawn.
     """
     count, size = draw.vtx_buffer.size(), imgui.VERTEX_SIZE
     if not count:

@@ -24,8 +24,8 @@ from .placing import Box, LabelPlacer
 from .projected import Primitive, Text
 
 MENU = "Instruments/In the outside view"
-PAD = 6  # around the menu's button
-GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # of the axes
+PAD = 6  # pixels around the menu's button
+GRAYS = {"x": 0.86, "y": 0.95, "z": 0.76}  # the axes' brightness
 
 
 def use_tools(host: Host, scope: Scope, actions: Iterable[Action]) -> None:
@@ -63,7 +63,7 @@ def draw_axes(camera: Camera, origin: ImVec2, extent: ImVec2) -> None:
         draw.add_text(at, theme.u32(theme.rgb("#101215")), name)
 
 
-STRONG = 1.5  # the size of names that teach, in sizes of the type
+STRONG = 1.5  # the size of strong labels, relative to the type's
 
 
 class Written(NamedTuple):

@@ -57,9 +57,9 @@ from .tools import draw_labels, use_tools, written
 
 OUTSIDE = "Outside"
 TURN_RAD = 0.05  # per arrow key
-SMALLEST_PX = 24  # a view that is smaller shows nothing
-GRID_PX = 7.0  # the least distance of the grid's lines, in widths of a line
-NUMBER_SPACE = 1.1  # the least distance of pixels' numbers, in sizes of the type
+SMALLEST_PX = 24  # a smaller view shows nothing
+GRID_PX = 7.0  # the least distance between grid lines, in widths of a line
+NUMBER_SPACE = 1.1  # the least distance between pixels' numbers, in sizes of the type
 
 
 class Tools(NamedTuple):
@@ -257,7 +257,7 @@ class OutsideView(Instrument):
         return pixel_seen(both.camera(state), both.size, *ray)
 
     def _picture(self, host: Host, scope: Scope) -> Drawing:
-        """Return the present picture; the last one if nothing has changed."""
+        """Return the current picture, which is the last one if nothing has changed."""
         both, state, tools, extensions = host.renderers, host.state, self.tools, self.extensions
         assert tools is not None
         assert both.textures is not None

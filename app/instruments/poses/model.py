@@ -27,14 +27,14 @@ from lucida.renderer.scene.model import Scene, View
 
 Floats = NDArray[np.float64]
 
-LINES = 10  # a camera: four edges, four sides of its image, two for which way is up
+LINES = 10  # per camera: four edges, four sides of its image, two to mark up
 CURVE = 4  # parts of a side that a lens bends
 UP = 0.28  # the height of the mark for up, relative to the image's
 INLIERS = (1.0, 99.0)  # percentiles that bound a reconstruction; points outside are strays
 LOOKED_AT = 50_000  # points that are examined for that
-SEED = 7  # of the order in which points are drawn
+SEED = 7  # for the order in which points are drawn
 PLAIN = 150  # gray of points without colours
-CORNERS = np.array(list(np.ndindex(2, 2, 2)), bool)  # of a box: True for the higher side
+CORNERS = np.array(list(np.ndindex(2, 2, 2)), bool)  # a box's corners: True for the higher side
 NO_POINTS = (np.zeros((0, 3), np.float32), np.zeros((0, 3), np.uint8))
 # A frustum's length, relative to the cameras' extent: shorter if there are many.
 SHORTEST, LONGEST, FOR_ONE = 0.03, 0.15, 0.7
@@ -129,7 +129,7 @@ def load_poses(path: Path) -> CameraSet:
 
 
 def pose_set(path: Path, found: CameraSet) -> PoseSet:
-    """Prepare a set. Takes some seconds for ten thousand cameras and millions of points."""
+    """Prepare a set. This takes some seconds for ten thousand cameras and millions of points."""
     curved = any(posed.camera.lens is not None for posed in found.cameras)
     rays = [_border_rays(posed.camera, CURVE if curved else 1) for posed in found.cameras]
     origins = np.array([origin for origin, _ in rays], float)
@@ -165,7 +165,7 @@ def pose_set(path: Path, found: CameraSet) -> PoseSet:
 
 
 def _border_rays(camera: Camera, parts: int) -> tuple[Floats, Floats]:
-    """Return the rays around a camera's image. parts: of a side, 1 for the corners."""
+    """Return the rays around a camera's image. parts: parts per side, 1 for the corners."""
     x, y = border(camera, parts).T
     origins, ends = (point_at(camera, x, y, t) for t in (0.0, 1.0))
     return origins, (ends - origins) / np.linalg.norm(ends - origins, axis=1).mean()
@@ -174,7 +174,7 @@ def _border_rays(camera: Camera, parts: int) -> tuple[Floats, Floats]:
 def _names(cameras: Sequence[PosedCamera]) -> tuple[str, ...]:
     """Return the names without their common folder. Unnamed cameras have their numbers."""
     names = [posed.name or posed.image or str(n) for n, posed in enumerate(cameras)]
-    first, last = min(names), max(names)  # what these share, all do
+    first, last = min(names), max(names)  # a prefix that these share is shared by all
     pairs = enumerate(zip(first, last, strict=False))
     shared = next((place for place, (one, other) in pairs if one != other), len(first))
     start = first.rfind("/", 0, shared) + 1
@@ -192,7 +192,7 @@ def frusta(
     ends = origins + poses.length * poses.ways[numbers]
     corners, at = ends[:, :: poses.parts], poses.parts // 2
     middle_top, middle_bottom = (corners[:, ::2] + corners[:, 1::2]).swapaxes(0, 1) / 2
-    if at:  # of a curve
+    if at:  # a curve
         middle_top, middle_bottom = ends[:, at], ends[:, 2 * poses.parts + at]
     tip = middle_top + UP * (middle_top - middle_bottom)
     nexts = np.roll(ends, -1, axis=1)
@@ -219,8 +219,8 @@ def cloud(poses: PoseSet, with_points: bool) -> Cloud:
 
 
 def with_set(state: AppState, poses: PoseSet, scene: Scene | None) -> AppState:
-    """Return the state with a set. scene: the scene to show to the set's first camera; None to keep
-    the current scene and camera.
+    """Return the state with a set. scene: the scene to view with the set's first camera; None to
+    keep the current scene and camera.
     """
     file = stored(str(poses.path))
     if scene is None:

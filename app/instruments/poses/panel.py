@@ -30,7 +30,7 @@ INVITATION = (
 LAY = "on the images"
 LAY_TOLD = "each pose's photograph over both images, as you step through (Image > Photograph)"
 LISTED = imgui.ChildFlags_.borders | imgui.ChildFlags_.nav_flattened
-PHOTO_PART = 0.45  # of the height, below the list
+PHOTO_PART = 0.45  # the photograph's share of the height, below the list
 
 
 def invitation() -> PoseWish:
@@ -65,7 +65,7 @@ def head(poses: PoseSet, options: PosesOptions, fonts: Fonts) -> tuple[PoseWish,
     wish = _buttons(
         ("frame", "Frame the set", "the outside view sees all of its cameras and points"),
         ("open", "Open...", "another set"),
-        ("close", "Close", "no cameras but the window's own"),
+        ("close", "Close", "close the set; the camera stays"),
     )
     aligned = "the points as each camera sees them: they should line up with the photograph"
     if len(poses.points):

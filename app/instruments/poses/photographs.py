@@ -36,7 +36,7 @@ class Photograph:
 
 
 class Photographs:
-    """Reads photographs on a thread."""
+    """A reader of photographs on a thread."""
 
     def __init__(self) -> None:
         self._work: Background[tuple[PhotoKey, Photograph]] = Background("lucida-photographs")

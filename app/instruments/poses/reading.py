@@ -27,7 +27,7 @@ class _Read:
 
 
 class PosesReader:
-    """Reads sets on a thread. problems: by path, one line each."""
+    """A reader of sets on a thread. problems: one line per path."""
 
     def __init__(self) -> None:
         self._work: Background[_Read] = Background("lucida-poses")
@@ -48,7 +48,7 @@ class PosesReader:
         outcome = self._work.poll()
         if outcome is not None:
             read = outcome.value
-            if read is None or read.path == self._asked:  # otherwise another one is wanted by now
+            if read is None or read.path == self._asked:  # otherwise another set is wanted by now
                 self._asked = ""
             if read is not None:
                 self._keep(read.path, read.poses, read.problem)
@@ -96,7 +96,7 @@ def _has_no_mesh(model: Given) -> bool:
 
 
 def open_cameras(source: str) -> PoseSet | TakenCamera:
-    """Return a set of cameras, or the only one. Raise LucidaError."""
+    """Return a set of cameras, or its only camera. Raises LucidaError."""
     path = Path(source).absolute()
     found = load_poses(path)
     check_cancelled()

@@ -11,7 +11,7 @@ from .model import PoseSet
 
 Bytes = NDArray[np.uint8]
 MANY = (4, 20)  # pixels per point, above which points are larger
-DARKER = 0.45  # a photograph's light under points
+DARKER = 0.45  # the factor for a photograph's light under points
 
 
 def with_points(poses: PoseSet, number: int, pixels: Bytes) -> Bytes:
@@ -29,7 +29,7 @@ def with_points(poses: PoseSet, number: int, pixels: Bytes) -> Bytes:
         seen = (t > 0) & (np.abs(row - height / 2) < height) & (np.abs(column - width / 2) < width)
     rows, columns = np.round(row[seen]).astype(int), np.round(column[seen]).astype(int)
     order = np.argsort(-t[seen], kind="stable")  # the farthest first
-    side = 1 + sum(len(order) < width * height / many for many in MANY)  # of a point, pixels
+    side = 1 + sum(len(order) < width * height / many for many in MANY)  # a point's side in pixels
     for down in range(side):
         for right in range(side):
             i, j = rows[order] + down, columns[order] + right

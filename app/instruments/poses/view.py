@@ -63,7 +63,7 @@ class PosesView(Instrument):
 
     def give(self, window: Host, poses: PoseSet) -> None:
         """Show the set that the state names."""
-        self._reader.give(poses)  # so that nothing waits
+        self._reader.give(poses)  # so that it need not be read again
         window.show_in(POSES, layout.OUTSIDE)
 
     def open(self, window: Host, poses: PoseSet, scene: Scene | None) -> None:
@@ -211,7 +211,7 @@ class PosesView(Instrument):
     def _photo(
         self, host: Host, poses: PoseSet, number: int
     ) -> tuple[moderngl.Texture | None, str, bool | None]:
-        """Return the picture, its caption, and whether it is laid over the images."""
+        """Return the picture, its caption, and True if it is laid over the images."""
         assert self._uploads is not None
         dotted = host.state.options.poses.reprojected
         follows = host.state.options.photograph.follows

@@ -13,7 +13,7 @@ from imgui_bundle import ImVec2, ImVec4, imgui
 
 from lucida.app.ui import theme
 
-LINE = 1.18  # a line's height, in parts of the type's
+LINE = 1.18  # a line's height, relative to the type's
 NAMED = re.compile(r"(\b(?:ray|hit|closest)\b)")
 
 

@@ -28,9 +28,9 @@ from .code import LINE, code, code_size
 from .source import shown_lines
 
 GAP_EM = 0.9
-MOST_CODE = 0.68  # of the width or height
+MOST_CODE = 0.68  # the code's largest share of the width or height
 LARGEST = 1.5, 1.3, 1.0  # the code's type sizes, relative to the window's
-LEAST_WORDS = 0.8  # that of prose, so that a slide need not scroll
+LEAST_WORDS = 0.8  # the least size of prose, small enough that a slide need not scroll
 NUMBERED = 12  # the most rows or columns that all have numbers
 Lit = Mapping[int, float]  # the opacities of highlights, by line number
 

@@ -25,9 +25,9 @@ OPERATORS: dict[type[ast.AST], tuple[str, int]] = {
 
 
 class _Julia:
-    """Writes expressions, with as few parentheses as possible.
+    """A writer of expressions, with as few parentheses as possible.
 
-    counted: the variables that Python counts from 0, and Julia here as `indexing`.
+    counted: the variables that Python counts from 0, and Julia as `indexing` says.
     """
 
     def __init__(self, counted: frozenset[str], indexing: Indexing) -> None:
@@ -89,7 +89,7 @@ class Loops:
 
 def loops(python: str, indexing: Indexing = Indexing.LECTURE) -> Loops:
     """Translate a function of loops, without its docstring, to Julia: line by line, with an `end`
-    at the end of each block. Rows and columns that count from 0 then count as `indexing` does.
+    at the end of each block. Rows and columns that count from 0 then count as `indexing` says.
     """
     tree = ast.parse(textwrap.dedent(python)).body[0]
     counted = frozenset(

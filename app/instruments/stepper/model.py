@@ -27,7 +27,7 @@ Wish = Literal["", "back", "step", "pixel", "object"]
 
 
 class Variable(NamedTuple):
-    """A variable. changed: set by the line that has just run."""
+    """A variable. changed: True if the line that has just run set it."""
 
     name: str
     value: Any
@@ -67,7 +67,7 @@ def moment_at(recording: Recording, step: int) -> Moment:
             since[name], now[name] = steps[count - 1], values[count - 1]
 
     def fresh(name: str, body: range, turns: array[int]) -> Any:
-        """Return a variable that was set in the present turn of a loop, or None."""
+        """Return a variable that was set in the current turn of a loop, or None."""
         begun = bisect_right(turns, step)
         is_fresh = line in body and name in since and since[name] >= turns[begun - 1]
         return now[name] if is_fresh else None

@@ -42,7 +42,10 @@ def run_items(camera: Camera, size: Size, moments: tuple[Moment, ...], end: floa
 def traced_items(
     hits: Hits, camera: Camera, pixel: Pixel | None, part: float, end: float
 ) -> list[Item]:
-    """Return a pixel, its ray and its hits. part: as in StepperOptions.parts. end: see above."""
+    """Return a pixel, its ray and its hits.
+
+    part: as in StepperOptions.parts. end: as in run_items().
+    """
     if pixel is None:
         return []
     number = pixel[0] * hits.size[0] + pixel[1]

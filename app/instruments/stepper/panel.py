@@ -26,7 +26,7 @@ from .recording import MOST_STEPS, Recording
 
 CANVASES = ((4, 3), (8, 6), (16, 12), (32, 24), (64, 48))
 SLIDER_EM = 12.0  # the least width of the slider next to a title
-PROGRAM = 0.68  # of the height
+PROGRAM = 0.68  # the program's share of the height
 INDICES = ("i", "j", "rows", "columns")  # the variables that count pixels
 EDGES = ("ea", "eb", "ec")
 
@@ -76,7 +76,7 @@ def controls(state: AppState) -> tuple[AppState, Wish]:
         options = replace(options, canvas=sizes[number], steps=(0, 0))
     follow(imgui.calc_text_size("Julia").x + 1.5 * imgui.get_frame_height())
     changed, is_julia = checkbox("Julia", state.options.language == "julia")
-    tip("the same lines in Julia; what runs is Python")
+    tip("the same lines in Julia; the code that runs is Python")
     if changed:
         language = replace(state.options, language="julia" if is_julia else "python")
         state = state.with_options(language)

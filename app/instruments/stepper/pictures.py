@@ -33,7 +33,7 @@ from .programs import (
 from .questions import draw_questions
 from .runs import Prepared
 
-TEXT = 0.12  # of the height, above the two loops: space for an overlaid text
+TEXT = 0.12  # share of the height above the two loops: space for an overlaid text
 
 
 class LoopPictures:

@@ -22,9 +22,9 @@ from lucida.renderer.camera.image_plane import Size
 
 from .loop_parts import Model, ViewingRay, color_at, intersect
 
-GLOW = 0.01  # of a run: the lines that have just been executed shine together
+GLOW = 0.01  # share of a run: the lines executed in it shine together
 # When a line is executed: in each turn of the outer loop, in each turn of the inner one, if the
-# object is the nearest so far, or after the inner loop. Other lines are never lit.
+# object is the nearest so far, or after the inner loop. Other lines are never highlighted.
 When = Literal["", "outer", "inner", "nearer", "after"]
 
 
@@ -125,7 +125,7 @@ def hits_of(model: Model, camera: Camera, size: Size) -> Hits:
     for k, thing in enumerate(model.objects):
         colors[k + 1] = colors[k]
         for pixel, ray in enumerate(rays):
-            if math.isnan(ray.direction[0]):  # outside of the lens
+            if math.isnan(ray.direction[0]):  # outside the lens
                 continue
             hit = intersect(thing, ray)
             t[k, pixel] = hit.t

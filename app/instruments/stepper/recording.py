@@ -22,7 +22,7 @@ from .loop_parts import Model
 from .source import source_of
 
 MOST_STEPS = whole_range_of(StepperOptions, "steps")[1]
-# The recorder checks this often whether it is wanted, and sleeps, so that the window gets its turn.
+# The recorder checks is_wanted at this interval, and sleeps, so that the window gets its turn.
 _BREAK_EVERY, _BREAK_S = 1000, 0.0003
 
 

@@ -24,8 +24,8 @@ _FROM_ONE = (
 class Source:
     """The source of one of the loops.
 
-    lines: without its docstring.
-    first_line: subtracted from Python's line numbers.
+    lines: its lines without the docstring.
+    first_line: the number subtracted from Python's line numbers.
     pixels: the lines of the body of the loop over columns j, inside that over rows.
     objects: those of the loop over objects, or over triangles.
     """
@@ -59,7 +59,7 @@ def _body(lines: tuple[str, ...], *headers: str) -> range:
 
 @cache
 def shown_lines(lines: tuple[str, ...], indexing: Indexing = Indexing.ARRAY) -> tuple[str, ...]:
-    """Return lines of the loops with letters, with pixels counted as `indexing` does."""
+    """Return lines of the loops with letters, with pixels counted as `indexing` says."""
     text = "\n".join(lines)
     if indexing is Indexing.LECTURE:
         for pattern, instead in _FROM_ONE:

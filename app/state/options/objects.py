@@ -1,4 +1,4 @@
-"""The options for editing the scene: the selection, and how it is handled."""
+"""The options for editing the scene: the selection and its handles."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ class ObjectsOptions(OptionPart):
     """The options for editing the scene.
 
     chosen: selected objects and lights by their keys (renderer/editing/), the last one last.
-    selects: a click in a view selects the object under it, instead of marking a pixel.
-    handle: the selection's handles in the views.
+    selects: True if a click in a view selects an object instead of marking a pixel.
+    handle: the kind of the selection's handles in the views.
     """
 
     chosen: Annotated[tuple[Key, ...], AtMost(MOST_CHOSEN)] = ()

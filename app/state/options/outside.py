@@ -36,8 +36,8 @@ class OutsideOptions(OptionPart):
     half_line: the marked pixel's ray as p, d, the whole line with t = 1, 2, 3, and then without
         t < 0.
     meetings: all t at which that ray meets objects, then the least t > 0. simple: the parts of the
-    simple camera: its eye, its direction, its viewport, the viewport's sides, d. basis_grown: of
-    a basis that is made from a target: w, up, u, v. numbers: write numbers in place of the
+    simple camera: its eye, its direction, its viewport, the viewport's sides, d. basis_grown: the
+    parts of a basis that is made from a target: w, up, u, v. numbers: write numbers in place of the
     formula's letters. to_parallel: the formula's progress from perspective to parallel.
     """
 

@@ -1,4 +1,4 @@
-"""The options of the photograph: the file, and how it is laid over the images."""
+"""The options of the photograph: the file, and its display over the images."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class PhotographOptions(OptionPart):
     file: the photograph's absolute path, as stored() of state/paths.py writes it, "" for none; in a
     lecture, a file next to the lecture's.
     shown: draw it in the images.
-    opacity: from 0 to 1, of display values.
+    opacity: from 0 to 1, applied to display values.
     follows: show the photograph of the current pose.
     """
 

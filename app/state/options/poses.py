@@ -1,4 +1,4 @@
-"""The options of the view "Poses": the open set, the selected camera, and how the set is drawn."""
+"""The options of the view "Poses": the open set, the selected camera, and the set's display."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from lucida.app.state.bounds import Beside, OptionPart, Range
 class PosesOptions(OptionPart):
     """The options of the view "Poses".
 
-    file: of the set, an absolute path, as stored() of state/paths.py writes it, "" for none; in a
+    file: the set's absolute path, as stored() of state/paths.py writes it, "" for none; in a
     lecture, a file or folder next to the lecture's.
     pose: the number of the selected camera, from 0; -1 for none.
     points: draw a reconstruction's points.

@@ -1,7 +1,7 @@
 """The options that all instruments share, apart from scene and camera.
 
-Small immutable values with their bounds (bounds.py): panels, sessions and lectures take these from
-the fields. Each instrument's own are in a module next to this one; Options has them all.
+They are small immutable values with bounds (bounds.py), which panels, sessions and lectures read
+from the fields. Each instrument's own options are in a module next to this one; Options has all.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ SAMPLES = (1, 4, 16, 64)  # rays per pixel
 MOST_BOOKMARKS = 9  # a key for each
 MAGNIFICATIONS = (1, 2, 4, 8, 16, 32, 64)
 
-# Fields of ImageOptions that say how an image is shown, not which one.
+# Fields of ImageOptions that change the display of an image, not the image itself.
 DISPLAY = (
     *("channel", "transfer", "exposure_ev", "magnification", "center"),
     *("grid", "dissolved"),
@@ -42,12 +42,12 @@ Language = Literal["python", "julia"]
 class ImageOptions(OptionPart):
     """The options of both images.
 
-    exposure_ev: the display's brightness, in stops. transfer: how light becomes a display value.
-    resolution: (width, height) of both images, None for as many pixels as the window has.
+    exposure_ev: the display's brightness, in stops. transfer: the conversion of light to display
+    values. resolution: (width, height) of both images; None for as many pixels as the window has.
     magnification: screen pixels per side of an image's pixel if the user has zoomed into the
-    pixels, None to fit the whole image into its window; center: the centre of the view then, as a
-    fraction of the image's width and height. grid: draw lines between pixels, and their numbers,
-    if those are large enough.
+    pixels; None to fit the whole image into its window. center: the centre of a zoomed view, as a
+    fraction of the image's width and height. grid: draw lines between pixels, and the pixels'
+    numbers if there is space.
     samples: rays per pixel for the ray image's colour, once the image is complete. dissolved: the
     progress of both images' dissolution into flat squares, of which finally 32 are in a row.
     lens_enlargement: texels per side of a pixel in the pinhole images in which the raster image of

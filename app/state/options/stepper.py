@@ -16,7 +16,7 @@ Runs = Annotated[float, Range(0, 8)]
 class StepperOptions(OptionPart):
     """The options of the loop stepper.
 
-    picture: what a lecture shows: the two loops in words; ray tracing in three lines, first at
+    picture: the picture in a lecture: the two loops in words; ray tracing in three lines, first at
     the marked pixel; the whole program; or its questions: an image, a frame, a ray.
     parts: the progress of the runs, in object order and in image order. A run begins after
     each whole number and is complete at the next. Ray tracing's lines are executed at the marked

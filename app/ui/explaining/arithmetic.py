@@ -68,7 +68,7 @@ def vector(text: str) -> NDArray[np.float64]:
 
 
 def text_of(value: float) -> str:
-    """Return a number as a lecture writes it: as a small fraction if it is one, else with four
+    """Return a number as a lecture writes it: as a small fraction if it is one, or with four
     decimals.
     """
     for below in (1, 2, 3, 4, 5, 6, 8, 10, 12, 16, 24, 32):

@@ -12,7 +12,7 @@ CONTINUED = 4  # extra indentation of a continued line, in letters
 
 @functools.lru_cache(maxsize=1024)
 def breakable(formula_text: str) -> tuple[str, ...]:
-    """Split a formula where a line may break: before an equals sign, plus or minus outside
+    """Split a formula at possible line breaks: before an equals sign, plus or minus outside
     brackets.
 
     Joined by single spaces, the parts are the whole formula.

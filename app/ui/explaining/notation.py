@@ -59,7 +59,7 @@ def formula(
 ) -> Line:
     """Return a line `left = right`.
 
-    right: in it, `<name>` is a slot. result: the LaTeX of the value; None for results(value).
+    right: the right side, with slots as `<name>`. result: the value's LaTeX; None: results(value).
     """
     values = (value,) if isinstance(value, int | float) else tuple(value)
     result = results(values) if result is None else result

@@ -253,7 +253,7 @@ def test_a_scene_that_is_edited_while_its_file_is_read_is_asked_about(path):
     window.opened = newer
     take_opened(window)
     assert window.state.scene is edited
-    assert len(window.asked) == 1 and "not saved" in window.asked[0]
+    assert len(window.asked) == 1 and "is unsaved" in window.asked[0]
     window.then()
     assert window.state.scene is found(newer, OpenedScene).scene
     window.change(replace(window.state, scene=load_scene("spheres")))
