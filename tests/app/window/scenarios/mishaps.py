@@ -6,9 +6,17 @@ import moderngl
 
 from lucida.renderer.system.errors import LucidaError
 
+TRY_AGAIN = "//##message/Try again"
+
 
 def is_told(d):
-    return d.ctx.item_exists("//##message/Try again")
+    return d.ctx.item_exists(TRY_AGAIN)
+
+
+def try_again(d):
+    """Click where the button is. It may move or vanish meanwhile, with another message."""
+    center = d.box(TRY_AGAIN).get_center()
+    d.click_at((center.x, center.y))
 
 
 def fail_until_retried(d, error, told):
@@ -30,7 +38,7 @@ def fail_until_retried(d, error, told):
 
     def is_retried():  # a request that was under way at the click may fail after it
         if live.error is not None and is_told(d):
-            d.click("//##message/Try again")
+            try_again(d)
         return live.error is None and d.window.settled
 
     d.until(is_retried)
@@ -53,7 +61,7 @@ def drive_a_lost_context_is_told_and_the_window_goes_on(d):
         assert "the context is lost" in str(d.renderers.raster_error)
     finally:
         moderngl.Context.error = error
-    d.click("//##message/Try again")
+    try_again(d)
     d.until(lambda: d.renderers.raster_error is None)
     d.undo()
     d.agreeing_images()
