@@ -83,7 +83,7 @@ def test_several_tasks_are_told_in_their_order_with_a_sum(check):
 def test_a_file_with_none_of_the_functions(check):
     status, out, err = check("def other():\n    pass\n")
     assert (status, out) == (2, "")
-    assert "lucida: answer.py: it has none of the functions" in err and "basis" in err
+    assert "lucida: answer.py: it has none of the requested functions" in err and "basis" in err
 
 
 def test_a_named_task_must_be_there(check, tmp_path):

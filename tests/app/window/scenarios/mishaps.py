@@ -19,6 +19,13 @@ def try_again(d):
     d.click_at((center.x, center.y))
 
 
+def is_mended(d):
+    """Try the raster image again, as often as the window says that it failed."""
+    if d.renderers.raster_error is not None and is_told(d):
+        try_again(d)
+    return d.renderers.raster_error is None
+
+
 def fail_until_retried(d, error, told):
     """The tracer fails; the window tells it, goes on, and tries again when asked."""
     renderers = d.renderers
@@ -61,8 +68,7 @@ def drive_a_lost_context_is_told_and_the_window_goes_on(d):
         assert "the context is lost" in str(d.renderers.raster_error)
     finally:
         moderngl.Context.error = error
-    try_again(d)
-    d.until(lambda: d.renderers.raster_error is None)
+    d.until(lambda: is_mended(d))
     d.undo()
     d.agreeing_images()
 

@@ -205,10 +205,6 @@ def children():
             command = (entry.parent / "cmdline").read_bytes()
         except OSError:
             continue
-        if (
-            int(words[1]) == os.getpid()
-            and b"Runs a student's Python file" in command
-            and words[0] != "Z"
-        ):
+        if int(words[1]) == os.getpid() and b"class StudentFile" in command and words[0] != "Z":
             found.add(int(entry.parent.name))
     return found
