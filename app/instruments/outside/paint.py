@@ -5,8 +5,9 @@ This module defines the colour of each role.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from functools import cache, lru_cache, partial
+from itertools import groupby
 
 import numpy as np
 from imgui_bundle import ImVec4
@@ -99,20 +100,25 @@ def ground_of(background: Vector, exposure_ev: float) -> Rgb:
 
 def layers(primitives: Iterable[Primitive], ground: Rgb) -> list[Layer]:
     """Return the layers for Overlay.draw(), the lowest first, without texts."""
-    parts = [one for one in primitives if not isinstance(one, Text)]
+    parts = sorted((one for one in primitives if not isinstance(one, Text)), key=_layer)
     color = cache(partial(_color, ground=ground))
-    out = []
-    for layer in sorted({part.layer for part in parts}):
-        here = [part for part in parts if part.layer == layer]
-        corners = [_corners(part, color) for part in here if isinstance(part, Shape)]
-        segments = [_segments(part, color) for part in here if isinstance(part, Strokes)]
-        out.append(
-            (
-                np.concatenate([np.zeros(0, CORNER), *corners]),
-                np.concatenate([np.zeros(0, SEGMENT), *segments]),
-            )
-        )
+    strokes = [part for part in parts if isinstance(part, Strokes)]
+    shapes = [part for part in parts if isinstance(part, Shape)]
+    segments, corners = _segments(strokes, color), _corners(shapes, color)
+    out, first, last = [], [0, 0], [0, 0]
+    for _, group in groupby(parts, _layer):
+        for part in group:
+            if isinstance(part, Strokes):
+                last[1] += len(part.points)
+            else:
+                last[0] += 3 * (len(part.points) - 2)
+        out.append((corners[first[0] : last[0]], segments[first[1] : last[1]]))
+        first = [*last]
     return out
+
+
+def _layer(part: Strokes | Shape) -> int:
+    return part.layer
 
 
 def line_color(item: Segments, ground: Rgb) -> Rgba:
@@ -120,28 +126,49 @@ def line_color(item: Segments, ground: Rgb) -> Rgba:
     return _color(item.role, item.opacity, 0.0, ground)
 
 
-def _segments(part: Strokes, color: Callable[[Role, float, float], Rgba]) -> np.ndarray:
-    rows = np.zeros(len(part.points), SEGMENT)
-    rows["start"], rows["end"] = part.points[:, 0], part.points[:, 1]
-    rows["depth"], rows["before"] = part.depth, part.before
-    rows["color"] = color(part.role, part.opacity, part.tint)
-    rows["width"], rows["hidden"] = part.width_px, part.hidden
-    # Round ends of pale lines would show where they meet.
-    rows["flags"] = (
-        (ROUND_START | ROUND_END if part.opacity == 1 else 0) | ON_PLANE * part.on_plane
-        | DASHED * part.dashed | BARE * (part.opacity < PALEST)
-    )  # fmt: skip
+def _segments(parts: Sequence[Strokes], color: Callable[[Role, float, float], Rgba]) -> np.ndarray:
+    """Return the lines of all parts. They are made together: most parts have few."""
+    counts = [len(part.points) for part in parts]
+    rows = np.zeros(sum(counts), SEGMENT)
+    if not len(rows):
+        return rows
+    points = np.concatenate([part.points for part in parts])
+    rows["start"], rows["end"] = points[:, 0], points[:, 1]
+    rows["depth"] = np.concatenate([part.depth for part in parts])
+    rows["before"] = np.concatenate([part.before for part in parts])
+    fixed = [
+        (*color(part.role, part.opacity, part.tint), part.width_px, part.hidden,
+         # Round ends of pale lines would show where they meet.
+         (ROUND_START | ROUND_END if part.opacity == 1 else 0) | (ON_PLANE * part.on_plane)
+         | (DASHED * part.dashed) | BARE * (part.opacity < PALEST))
+        for part in parts
+    ]  # fmt: skip
+    values = np.repeat(np.array(fixed), counts, axis=0)
+    rows["color"] = values[:, :4]
+    rows["width"], rows["hidden"], rows["flags"] = values[:, 4:].T
     return rows
 
 
-def _corners(part: Shape, color: Callable[[Role, float, float], Rgba]) -> np.ndarray:
-    """Return the corners of a polygon's triangles, which share its first corner."""
-    second = np.arange(1, len(part.points) - 1)
-    fan = np.stack([0 * second, second, second + 1], axis=1).ravel()
-    rows = np.zeros(len(fan), CORNER)
-    rows["corner"], rows["depth"] = part.points[fan], part.depth[fan]
-    rows["color"] = color(part.role, part.opacity, part.tint)
-    rows["hidden"], rows["flags"] = part.hidden, ON_PLANE * part.on_plane
+def _corners(parts: Sequence[Shape], color: Callable[[Role, float, float], Rgba]) -> np.ndarray:
+    """Return the corners of all parts' triangles, which have their first corners in common."""
+    counts = [len(part.points) for part in parts]
+    ends = np.cumsum(counts)
+    rows = np.zeros(3 * (sum(counts) - 2 * len(parts)), CORNER)
+    if not len(rows):
+        return rows
+    first = np.repeat(ends - counts, counts)
+    second = np.arange(len(first))
+    second = second[(second > first) & (second + 1 < np.repeat(ends, counts))]
+    fan = np.stack([first[second], second, second + 1], axis=1).ravel()
+    rows["corner"] = np.concatenate([part.points for part in parts])[fan]
+    rows["depth"] = np.concatenate([part.depth for part in parts])[fan]
+    fixed = [
+        (*color(part.role, part.opacity, part.tint), part.hidden, ON_PLANE * part.on_plane)
+        for part in parts
+    ]
+    values = np.repeat(np.array(fixed), counts, axis=0)[fan]
+    rows["color"] = values[:, :4]
+    rows["hidden"], rows["flags"] = values[:, 4:].T
     return rows
 
 

@@ -7,7 +7,8 @@ depths are as in screen.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -81,44 +82,59 @@ Primitive = Strokes | Shape | Text
 def project(items: Iterable[Item], screen: OutsideScreen) -> list[Primitive]:
     """Project the visible items in their order. Arrows with nearer tips come later, and so cover
     the others.
+
+    The lines of all items are clipped and projected together: for the few lines of one item,
+    NumPy's calls would take longer than the arithmetic.
     """
-    items, out = list(items), list[Primitive]()
+    items, parts = list(items), list[Segments | Primitive]()
     arrows = [item for item in items if isinstance(item, Arrow)]
     arrows.sort(key=lambda one: -screen.homogeneous(one.end)[2])
     farthest_first = iter(arrows)
     for item in items:
         if isinstance(item, Arrow):
-            out += _arrow(next(farthest_first), screen)
+            parts += _arrow(next(farthest_first), screen)
         elif isinstance(item, Segments):
-            out += _lines(item, screen)
+            parts.append(item)
         elif isinstance(item, Face):
             points, depth = screen.polygon(item.corners)
             if len(points) >= 3:
-                out.append(
+                parts.append(
                     Shape(item.name, item.role, points, depth, item.opacity, item.hidden,
                           item.on_plane, item.layer)
                 )  # fmt: skip
         elif isinstance(item, Label):
-            out += _label(item, screen)
+            parts += _label(item, screen)
         elif isinstance(item, Eye):
-            out += _eye(item, screen)
+            parts += _eye(item, screen)
         else:
-            out += _disc(item, screen)
-    return out
+            parts += _disc(item, screen)
+    lines = iter(_lines([part for part in parts if isinstance(part, Segments)], screen))
+    return [
+        one for part in parts for one in (next(lines) if isinstance(part, Segments) else [part])
+    ]
 
 
-def _lines(item: Segments, screen: OutsideScreen) -> list[Primitive]:
-    points, depth, numbers = screen.segments(item.segments)
-    if not len(points):
+def _lines(items: Sequence[Segments], screen: OutsideScreen) -> list[list[Primitive]]:
+    """Return the lines of each item."""
+    if not items:
         return []
-    begins = np.ones(len(points), bool)
-    begins[1:] = (np.diff(numbers) != 1) | (points[1:, 0] != points[:-1, 1]).any(axis=1)
+    ends = np.cumsum([len(item.segments) for item in items])
+    points, depth, numbers = screen.segments(np.concatenate([item.segments for item in items]))
+    bounds = [0, *np.searchsorted(numbers, ends).tolist()]
+    begins = np.ones(len(points) + 1, bool)
+    begins[1:-1] = (np.diff(numbers) != 1) | (points[1:, 0] != points[:-1, 1]).any(axis=1)
+    begins[bounds] = True
     lengths = np.linalg.norm(points[:, 1] - points[:, 0], axis=1)
     run = np.cumsum(lengths) - lengths
-    before = run - run[np.maximum.accumulate(np.where(begins, np.arange(len(points)), 0))]
+    starts = np.maximum.accumulate(np.where(begins[:-1], np.arange(len(points)), 0))
+    before = run - run[starts]
     return [
-        Strokes(item.name, item.role, points, depth, before, item.width * screen.unit_px,
-                item.opacity, item.hidden, item.on_plane, item.dashed, item.layer)
+        [
+            Strokes(item.name, item.role, points[low:high], depth[low:high], before[low:high],
+                    item.width * screen.unit_px, item.opacity, item.hidden, item.on_plane,
+                    item.dashed, item.layer)
+        ] if low < high else []
+        for item, (low, high) in zip(items, pairwise(bounds), strict=True)
     ]  # fmt: skip
 
 
@@ -131,7 +147,7 @@ def _disc(item: Dot, screen: OutsideScreen) -> list[Primitive]:
     ] if visible.all() else []  # fmt: skip
 
 
-def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
+def _arrow(item: Arrow, screen: OutsideScreen) -> list[Segments | Primitive]:
     """Return an arrow's shaft, and a cone if its tip is visible.
 
     The cone's outline is the hull of its tip and its base. It covers the shaft if the tip points to
@@ -158,7 +174,7 @@ def _arrow(item: Arrow, screen: OutsideScreen) -> list[Primitive]:
                 cone += _filled(f"{item.name} base", item.role, base.points, depth, layer, -0.35)
     ends, dashed = np.array([[start, end]]), item.dashed
     shaft = Segments(item.name, item.role, ends, item.width, dashed=dashed, layer=item.layer)
-    return [*_lines(shaft, screen), *cone]
+    return [shaft, *cone]
 
 
 def _filled(
