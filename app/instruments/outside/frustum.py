@@ -31,9 +31,30 @@ def point_at(camera: Camera, x: ArrayLike, y: ArrayLike, t: ArrayLike) -> Floats
     """
     x, y, t = (np.asarray(part, float) for part in (x, y, t))
     if not camera.is_parallel:
-        return np.asarray(camera.eye) + t[..., None] * camera.direction(x, y)
+        return np.asarray(camera.eye) + t[..., None] * directions(camera, x, y)
     across = x[..., None] * np.asarray(camera.u) + y[..., None] * np.asarray(camera.v)
     return np.asarray(camera.eye) + across - t[..., None] * np.asarray(camera.w)
+
+
+def directions(camera: Camera, x: ArrayLike, y: ArrayLike) -> Floats:
+    """Return the world directions (..., 3) of the rays through (x, y), as Camera.direction() does.
+
+    Those behind a lens take iterations, and do not change while the camera moves: they are kept.
+    """
+    if camera.lens is None:
+        return camera.direction(x, y)
+    x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+    return _ways(_optics(camera), x.shape, x.tobytes(), y.tobytes()) @ camera.basis.T
+
+
+def _optics(camera: Camera) -> Camera:
+    """Return a camera with the same lens and viewport, at the origin."""
+    return Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens)
+
+
+@lru_cache(maxsize=512)
+def _ways(optics: Camera, shape: tuple[int, ...], x: bytes, y: bytes) -> Floats:
+    return optics.direction(*(np.frombuffer(axis).reshape(shape) for axis in (x, y)))
 
 
 def on_ray(camera: Camera, pixel: Pixel, size: Size, t: Sequence[float]) -> Floats:
@@ -67,9 +88,7 @@ def border(camera: Camera, parts: int = CURVE) -> Floats:
 
     parts: the number of parts per side; 1 for the corners only.
     """
-    return _border(
-        Camera(viewport=camera.viewport, distance=camera.distance, lens=camera.lens), parts
-    )
+    return _border(_optics(camera), parts)
 
 
 @lru_cache(maxsize=64)

@@ -11,7 +11,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.image_plane import Size
 
 from .diagram import Dot, Item, Label, line
-from .frustum import image_point, point_at
+from .frustum import directions, image_point, point_at
 from .pixel_drawing import pixel_square
 
 APART_PX = 22.0  # a pixel and its ideal point are named if they are farther apart on the screen
@@ -24,7 +24,7 @@ def lens_pixel(camera: Camera, size: Size, pixel: Pixel) -> list[Item]:
     plane, if it does. A pixel outside the lens gets only a label.
     """
     x, y = camera.image_point(*pixel, size)
-    distorted, along, w = image_point(camera, x, y), camera.direction(x, y), np.asarray(camera.w)
+    distorted, along, w = image_point(camera, x, y), directions(camera, x, y), np.asarray(camera.w)
     if not np.isfinite(along).all():
         middle = image_point(camera, *camera.image_point(size[1] / 2, size[0] / 2, size))
         return [
