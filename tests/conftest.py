@@ -23,7 +23,7 @@ from lucida.renderer.trace.tiles.variants import Variant
 from tests.support.browser import chromium
 
 # make test repeats itself; `make attack ARGS=properties` takes other examples each time.
-settings.register_profile("lucida", deadline=None, derandomize=True)
+settings.register_profile("lucida", deadline=None, derandomize=True, max_examples=40)
 settings.register_profile("attack", deadline=None, max_examples=400, print_blob=True)
 settings.load_profile("lucida")
 

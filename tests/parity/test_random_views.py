@@ -1,4 +1,4 @@
-"""Random views: forty of them, and those that were wrong once."""
+"""Random views: twenty of them, and those that were wrong once."""
 
 import pytest
 
@@ -7,8 +7,8 @@ from tools.attack.random_views import Task, main
 
 
 def test_some_views_agree(capsys):
-    assert main(["--views", "40"]) == 0
-    assert "40 views" in capsys.readouterr().out
+    assert main(["--views", "20"]) == 0
+    assert "20 views" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 
 from lucida.renderer.camera.camera import Camera
@@ -27,6 +26,7 @@ from lucida.renderer.scene.model import (
 )
 from lucida.renderer.scene.positions import world_vertices
 from lucida.renderer.trace.bvh.binary import tree_of_scene
+from lucida.renderer.trace.compile.compiled import kernel
 from lucida.renderer.trace.reference.kernel import viewing_ray
 from lucida.renderer.trace.reference.traverse import Tree, closest_hit
 from lucida.renderer.trace.threads.thread_pool import Team
@@ -185,7 +185,7 @@ def tree_of(flat: FlatScene, leaf_size: int = 4) -> Tree:
     return tree_of_scene(flat, team, leaf_size)
 
 
-@numba.njit(error_model="numpy")
+@kernel
 def cast(tree, origins, directions, t_min, t_max):
     """(t, primitive, b1, b2) of rays (n, 3)."""
     n = len(origins)
@@ -199,7 +199,7 @@ def cast(tree, origins, directions, t_min, t_max):
     return t, primitive, b1, b2
 
 
-@numba.njit(error_model="numpy")
+@kernel
 def kernel_rays(view, width, height):
     """The kernel's rays of an image: origins and directions (height, width, 3)."""
     rays = np.empty((2, height, width, 3))

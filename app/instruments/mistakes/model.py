@@ -116,8 +116,8 @@ def named(program: Program, names: Iterable[str]) -> Mistakes:
     found: list[Mistake] = []
     for name in names:
         for mistake in program.mistakes:
-            fits = all(program.can_combine(other, mistake) for other in found)
-            if mistake.name == name and fits and mistake not in found and len(found) < 2:
+            is_new = mistake.name == name and mistake not in found and len(found) < 2
+            if is_new and all(program.can_combine(other, mistake) for other in found):
                 found.append(mistake)
     return tuple(found)
 

@@ -32,10 +32,10 @@ def rotation_of(quaternion: ArrayLike) -> Floats:
         wrong = parts.reshape(-1, 4)[int(np.argmin(length))]
         problem = f"{listed(wrong)} is not a rotation"
         raise LucidaError("quaternion", problem, "give w, x, y, z of length 1")
-    w, x, y, z = np.moveaxis(parts / length, -1, 0)
+    w, x, y, z = (parts / length).T
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
         [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
-    return np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+    return np.array(rows).T.swapaxes(-1, -2)

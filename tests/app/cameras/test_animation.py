@@ -38,7 +38,7 @@ def lookers(draw: st.DrawFn) -> Camera:
 
 
 @given(cameras(), cameras(), parts, st.booleans(), st.booleans())
-@settings(max_examples=300)
+@settings(max_examples=80)
 def test_every_camera_on_the_way_is_legal_and_the_ends_are_exact(
     one: Camera, two: Camera, part: float, fit_one: bool, fit_two: bool
 ) -> None:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import numpy as np
 import pytest
+from launching import launch
 from PIL import Image
 
 from tests.support.refusals import refused
@@ -19,10 +17,8 @@ SPACE = "{http://www.w3.org/2000/svg}"
 
 def figure(folder: Path, *arguments: str) -> None:
     """Run the command in a process of its own, because it draws a window."""
-    command = [sys.executable, "-P", "-m", "lucida", "figure", "spheres", "--size", "320x240"]
-    done = subprocess.run(
-        [*command, *arguments], cwd=folder, env=os.environ, capture_output=True, text=True
-    )
+    command = ["-m", "lucida", "figure", "spheres", "--size", "320x240"]
+    done = launch([*command, *arguments], folder)
     assert done.returncode == 0, done.stderr
 
 

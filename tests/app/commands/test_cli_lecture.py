@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-from pathlib import Path
-
 import numpy as np
 import pytest
+from launching import launch
 from PIL import Image
 
 from lucida.app.cli import main
 from lucida.app.ui import formula
 from tests.support.refusals import refused
 
-ROOT = Path(__file__).parents[3]
 LECTURE = '''\
 title = "Two steps"
 [[steps]]
@@ -88,26 +83,8 @@ def test_a_lecture_in_the_place_of_a_scene(text, tmp_path, capsys):
 def test_every_step_is_exported_without_a_display(tmp_path):
     path = tmp_path / "x.toml"
     path.write_text(LECTURE)
-    environment = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    environment |= {"XDG_CONFIG_HOME": str(tmp_path / "config"), "PYTHONPATH": str(ROOT)}
-    done = subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "lucida",
-            "lecture",
-            "x.toml",
-            "--export",
-            "out",
-            "--size",
-            "900x600",
-        ],
-        cwd=tmp_path,
-        env=environment,
-        capture_output=True,
-        text=True,
-        timeout=240,
-    )
+    command = "-m lucida lecture x.toml --export out --size 900x600"
+    done = launch(command.split(), tmp_path)
     assert done.returncode == 0, done.stderr[-2000:]
     assert done.stdout == "out: 2 pictures, 900x600\n"
     pictures = [np.asarray(Image.open(tmp_path / "out" / f"{k:02}.png")) for k in (1, 2)]

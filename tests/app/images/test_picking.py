@@ -10,7 +10,7 @@ from lucida.app.images.picking import object_on_ray
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.scene import Scene, SceneObject, Sphere, shapes
 
-SIZE = (24, 14)
+SIZE = (16, 9)
 
 
 @pytest.mark.parametrize("name", BUILTIN_SCENES)

@@ -8,7 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from test_window import LIMIT_S, PATH, environment
+from launching import PATH, environment
+from test_window import LIMIT_S
 
 ROOT = Path(__file__).parents[3]
 MOST_LINES = 60

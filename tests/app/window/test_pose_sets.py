@@ -4,8 +4,9 @@ import json
 
 import numpy as np
 from format_cameras import transforms_json
+from launching import launch
 from PIL import Image
-from test_window import drives_take_long, run
+from test_window import drives_take_long
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.files.cameras import PosedCamera
@@ -56,7 +57,7 @@ def transforms(folder):
 def test_the_next_start_goes_on_with_the_set_and_the_chosen_one(tmp_path):
     transforms(tmp_path)
     for mode in ("named", "again"):
-        done = run(["-c", SCRIPT, str(tmp_path), mode], tmp_path)
+        done = launch(["-c", SCRIPT, str(tmp_path), mode], tmp_path)
         assert done.returncode == 0, done.stderr
         assert done.stdout.split() == ["4", "2", "True"]
 
@@ -66,7 +67,8 @@ def test_the_command_line_opens_a_set_and_draws_it(tmp_path):
     pictures = []
     for source in ("transforms.json", "still-life"):
         picture = tmp_path / f"{len(pictures)}.png"
-        done = run(["-m", "lucida", source, "--screenshot", str(picture)], tmp_path)
+        arguments = ["--screenshot", str(picture), "--size", "640x400"]
+        done = launch(["-m", "lucida", source, *arguments], tmp_path)
         assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
         pictures.append(np.asarray(Image.open(picture).convert("RGB")).astype(int))
     differ = np.abs(pictures[0] - pictures[1]).max(axis=2) > 8

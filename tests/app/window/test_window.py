@@ -12,11 +12,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from launching import launch
 from PIL import Image
 
-TESTS = Path(__file__).parents[2]
-DRIVER = TESTS / "support" / "window_driver.py"
-PATH = os.pathsep.join((str(TESTS.parent), str(TESTS / "support")))
+DRIVER = Path(__file__).parents[2] / "support" / "window_driver.py"
 LIMIT_S = 560  # one window
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 DRIVES_LIMIT_S = 1500  # a window with many drives, on a busy machine
@@ -33,28 +32,10 @@ DRIVES = {
 }
 
 
-def environment(folder, display=None):
-    """No display unless one is given, and no settings of whoever runs the tests."""
-    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
-    variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": PATH}
-    return variables | ({"DISPLAY": display} if display else {})
-
-
-def run(arguments, folder, display=None, limit_s=LIMIT_S):
-    return subprocess.run(
-        [sys.executable, *arguments],
-        cwd=folder,
-        env=environment(folder, display),
-        capture_output=True,
-        text=True,
-        timeout=limit_s,
-    )
-
-
 def drive(folder, *names):
     report = folder / "report.json"
     arguments = [str(DRIVER), str(report), str(folder), *names]
-    done = run(arguments, folder, limit_s=DRIVES_LIMIT_S)
+    done = launch(arguments, folder, limit_s=DRIVES_LIMIT_S)
     assert report.exists(), done.stdout[-2000:] + done.stderr[-2000:]
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     return json.loads(report.read_text())
@@ -123,7 +104,7 @@ def check_picture(path, size):
 def test_no_display(tmp_path):
     mine = tmp_path / "lucida.png"
     mine.write_text("a user's own picture")
-    done = run(["-m", "lucida"], tmp_path)
+    done = launch(["-m", "lucida"], tmp_path, fresh=True)
     assert done.returncode == 0, done.stderr
     first, last = done.stdout.splitlines()
     assert "no display" in first
@@ -136,7 +117,7 @@ def test_no_display(tmp_path):
 
 def test_screenshot_of_any_size_and_scene(tmp_path):
     picture = tmp_path / "out.png"
-    done = run(
+    done = launch(
         ["-m", "lucida", "spheres", "--screenshot", str(picture), "--size", "2000x1300"], tmp_path
     )
     assert done.returncode == 0, done.stderr
@@ -145,11 +126,11 @@ def test_screenshot_of_any_size_and_scene(tmp_path):
 
 
 def test_mistakes_are_one_line(tmp_path):
-    done = run(["-m", "lucida", "nowhere.obj"], tmp_path)
+    done = launch(["-m", "lucida", "nowhere.obj"], tmp_path)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
     assert "nowhere.obj" in done.stderr
-    done = run(["-m", "lucida", "--screenshot", "no/such/folder.png"], tmp_path)
+    done = launch(["-m", "lucida", "--screenshot", "no/such/folder.png"], tmp_path)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1
 
@@ -210,7 +191,7 @@ run.on_drawn = look
 save_png(Path("out.png"), run.run())
 assert visible[0] == 0 and set(visible[1:]) == {1}, visible
 """
-    done = run(["-c", script], tmp_path, xvfb)
+    done = launch(["-c", script], tmp_path, xvfb)
     assert done.returncode == 0, done.stderr
     check_picture(tmp_path / "out.png", (1280, 720))
 
@@ -227,9 +208,9 @@ from lucida.renderer.files import load_scene
 
 platform = start_platform()
 assert platform.has_display, platform.reason
-run = WindowRun(platform, AppState.for_scene(load_scene("still-life")), (1000, 700), remember=False)
+run = WindowRun(platform, AppState.for_scene(load_scene("still-life")), (900, 600), remember=False)
 run.params.fps_idling.enable_idling = False
-sizes, still = [(1000, 700), (800, 500), (1300, 820), (640, 480)], 0
+sizes, still = [(900, 600), (640, 480), (1100, 700)], 0
 
 def look(target):
     global still
@@ -260,7 +241,7 @@ run.on_drawn = look
 run.run()
 assert not sizes
 """
-    done = run(["-c", script], tmp_path, xvfb)
+    done = launch(["-c", script], tmp_path, xvfb)
     assert done.returncode == 0, done.stderr
 
 
@@ -292,7 +273,7 @@ def watch():
 threading.Thread(target=watch, daemon=True).start()
 run.run()
 """
-    done = run(["-c", script], tmp_path, xvfb)  # a window that is never idle is never closed
+    done = launch(["-c", script], tmp_path, xvfb)  # a window that is never idle is never closed
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "config" / "lucida" / "window.ini").exists()
     assert sorted(path.name for path in tmp_path.iterdir()) == ["config"]
@@ -323,7 +304,7 @@ run.run()
 """
     sizes = []
     for name in ("SIGTERM", "SIGINT"):
-        done = run(["-c", script, name], tmp_path, xvfb, limit_s=LIMIT_S / 2)
+        done = launch(["-c", script, name], tmp_path, xvfb, limit_s=LIMIT_S / 2)
         sizes.append(done.stdout)
         if name == "SIGTERM":
             assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")

@@ -1,8 +1,8 @@
 """The window on a display of 200 %: type and spacing double, the images are sharp and agree."""
 
 import numpy as np
+from launching import launch
 from PIL import Image
-from test_window import run
 
 SCRIPT = """
 from pathlib import Path
@@ -31,7 +31,7 @@ print(*told, verdict.comparison.unexplained, *run.window.renderers.size)
 
 
 def test_everything_is_twice_as_large(tmp_path):
-    done = run(["-c", SCRIPT], tmp_path, limit_s=240)
+    done = launch(["-c", SCRIPT], tmp_path, limit_s=240)
     assert done.returncode == 0, done.stderr
     font, padding, line, main, unexplained, width, height = map(float, done.stdout.split())
     scale = 2 * 1.25

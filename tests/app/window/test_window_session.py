@@ -4,7 +4,7 @@ import signal
 import sys
 
 import pytest
-from test_window import run
+from launching import launch
 
 from lucida.app.state.session import from_bytes
 
@@ -62,7 +62,7 @@ stepped(run, step)
 
 
 def window(folder, mode):
-    return run(["-c", WINDOW, str(folder), mode], folder, limit_s=LIMIT_S)
+    return launch(["-c", WINDOW, str(folder), mode], folder, limit_s=LIMIT_S)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
@@ -110,5 +110,5 @@ for size in (None, (640, 400)):
 
 
 def test_a_size_that_is_asked_for_wins_over_that_of_the_last_window(tmp_path):
-    done = run(["-c", SIZES, str(tmp_path)], tmp_path)
+    done = launch(["-c", SIZES, str(tmp_path)], tmp_path)
     assert done.stdout.split("\n")[:2] == ["True 1280 720", "False 640 400"], done.stderr

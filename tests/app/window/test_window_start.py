@@ -5,8 +5,9 @@ import sys
 
 import numpy as np
 import pytest
+from launching import launch
 from PIL import Image
-from test_window import LIMIT_S, run
+from test_window import LIMIT_S
 
 pytestmark = pytest.mark.timeout(LIMIT_S + 60)
 
@@ -77,7 +78,7 @@ Path("told.json").write_text(json.dumps(told))
     ],
 )
 def test_a_shader_that_fails_at_the_start_is_told_and_survived(tmp_path, shader, view):
-    done = run(["-c", WINDOW, shader, view], tmp_path)
+    done = launch(["-c", WINDOW, shader, view], tmp_path)
     assert done.returncode == 0, done.stderr
     told = json.loads((tmp_path / "told.json").read_text())
     assert told["error"].startswith(f"shaders/{shader}: ")
@@ -99,7 +100,7 @@ def test_a_picture_of_the_window_without_a_shader_is_one_line(tmp_path):
         "from lucida.app.cli import main\n"
         "sys.exit(main(['--screenshot', 'out.png']))\n"
     )
-    done = run(["-c", script], tmp_path)
+    done = launch(["-c", script], tmp_path)
     assert done.returncode == 2
     assert done.stderr.count("\n") == 1, done.stderr
     assert "shaders/shade.frag" in done.stderr
@@ -141,7 +142,7 @@ run.on_drawn = look
 stepped(run, step)
 print(frames, *modules)
 """
-    done = run(["-c", script], tmp_path)
+    done = launch(["-c", script], tmp_path, fresh=True)
     assert done.returncode == 0, done.stderr
     frames, *modules = done.stdout.split()
     packages = {name.partition(".")[0].partition("_3_")[0] for name in modules}

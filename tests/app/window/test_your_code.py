@@ -4,7 +4,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from test_window import drives_take_long, run
+from launching import launch
+from test_window import drives_take_long
 
 SCRIPT = """
 import os, sys
@@ -54,7 +55,7 @@ def viewing_ray(i, j, width, height, camera):
 
 
 def opened(folder, mode):
-    done = run(["-c", SCRIPT, str(folder), mode], folder)
+    done = launch(["-c", SCRIPT, str(folder), mode], folder)
     assert done.returncode == 0, done.stderr
     return done
 

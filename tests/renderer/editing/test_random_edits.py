@@ -16,7 +16,7 @@ from lucida.renderer.scene import Scene, flatten
 from lucida.renderer.scene.model import View
 
 SIZE = (24, 16)
-SEQUENCES, EDITS_EACH = 60, 4
+SEQUENCES, EDITS_EACH = 30, 4
 VIEW = View(Camera.look_at((0.3, 1.2, 5.0), (0, 0, 0), fov_y_deg=40.0, aspect=1.5), fit=True)
 
 
@@ -63,7 +63,7 @@ def test_both_renderers_follow_random_edits_and_agree(start, gl_backend):
 @pytest.mark.parametrize("newline", ["\n", "\r\n"])
 def test_what_is_saved_after_random_edits_is_the_scene_in_its_authors_words(start, newline):
     path = documents.file_of(start)
-    for seed in range(40):
+    for seed in range(20):
         path.write_bytes(SCENE.replace("\n", newline).encode())
         loaded = load_scene(path)
         sections = sections_of(loaded)
@@ -93,7 +93,7 @@ def sections_of(scene: Scene) -> dict[int, tuple[dict, str]]:
 
 def test_flat_arrays_that_follow_are_those_that_are_made_anew(start):
     kinds = set()
-    for seed in range(60):
+    for seed in range(SEQUENCES):
         done, shown = sequence(1000 + seed, start)
         kinds |= {name.split(" (")[0] for name in done}
         known = start, flatten(start)

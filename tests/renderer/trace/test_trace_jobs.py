@@ -144,9 +144,9 @@ def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
 
 
 def slow_scene():
-    """Each ray tries all of 5000 equal triangles: an image of LARGE takes minutes."""
+    """Each ray tries all of 1000 equal triangles: an image of LARGE takes a minute."""
     vertices = np.array([[-9, -9, 0], [9, -9, 0], [0, 20, 0]], float)
-    return scene_of(Mesh(vertices, np.tile([0, 1, 2], (5000, 1))))
+    return scene_of(Mesh(vertices, np.tile([0, 1, 2], (1000, 1))))
 
 
 @pytest.fixture(scope="module")

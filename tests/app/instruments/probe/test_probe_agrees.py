@@ -37,7 +37,7 @@ def test_readings_are_what_the_tracer_draws(name):
         for camera in cameras(scene):
             frame = reference.render(camera, SIZE, ALL)
             fast = tracer.render(camera, SIZE, ALL)
-            for pixel in zip(rng.integers(0, 48, 80), rng.integers(0, 64, 80), strict=True):
+            for pixel in zip(rng.integers(0, 48, 30), rng.integers(0, 64, 30), strict=True):
                 reading = probe.at((int(pixel[0]), int(pixel[1])), camera, SIZE)
                 hit = reading.hit
                 assert (hit.object if hit else -1) == frame.id[pixel]
@@ -129,7 +129,7 @@ def test_shadows_and_mirrors_are_the_tracers():
     with Tracer(scene, shadows=True, mirror_depth=2) as tracer:
         frame = tracer.render(camera, SIZE)
     dark = wrong = mirrored = 0
-    for pixel in itertools.product(range(0, 48, 2), range(0, 64, 2)):
+    for pixel in itertools.product(range(0, 48, 3), range(0, 64, 3)):
         reading = probe.at(pixel, camera, SIZE, shadows=True, mirror_depth=2)
         wrong += not np.allclose(reading.color, frame.color[pixel], atol=2e-4)
         if reading.shading is None:
@@ -145,4 +145,4 @@ def test_shadows_and_mirrors_are_the_tracers():
             assert "sees ball" in line(lines, "mirror 1").name
     # At a shadow's outline, a ray in float32 may pass on the other side.
     assert wrong <= 2
-    assert dark > 25 and mirrored > 12
+    assert dark > 11 and mirrored > 5

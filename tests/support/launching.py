@@ -1,0 +1,122 @@
+"""Processes of Lucida, each forked from one that has imported its modules.
+
+Importing them takes half of a start. The window, the files and the exit are those of a process of
+its own; only a test of the start itself needs one that begins with nothing.
+"""
+
+from __future__ import annotations
+
+import atexit
+import functools
+import gc
+import json
+import os
+import runpy
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+TESTS = Path(__file__).parents[1]
+PATH = os.pathsep.join((str(TESTS.parent), str(TESTS / "support")))
+STREAMS = ("stdin", "stdout", "stderr")
+
+
+def environment(folder: Path, display: str | None = None) -> dict[str, str]:
+    """No display unless one is given, and no settings of whoever runs the tests."""
+    variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+    variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": PATH}
+    return variables | ({"DISPLAY": display} if display else {})
+
+
+def launch(
+    arguments: list[str],
+    folder: Path,
+    display: str | None = None,
+    limit_s: float = 560,
+    fresh: bool = False,
+) -> subprocess.CompletedProcess[str]:
+    """Run Python in a folder, with `-c SCRIPT`, `-m lucida` or a script's name, and more arguments.
+    Return its end: after limit_s, that by SIGALRM. fresh: it has imported nothing."""
+    variables = environment(folder, display)
+    if fresh or not sys.platform.startswith("linux"):  # elsewhere, a library may not be forked
+        command = [sys.executable, *arguments]
+        return subprocess.run(
+            command, cwd=folder, env=variables, capture_output=True, text=True, timeout=limit_s
+        )
+    with tempfile.TemporaryDirectory() as streams:
+        (Path(streams) / "stdin").touch()
+        request = {
+            "arguments": arguments,
+            "folder": str(folder),
+            "environment": variables,
+            "limit_s": limit_s,
+            "streams": [str(Path(streams) / name) for name in STREAMS],
+        }
+        server = _server()
+        server.stdin.write(json.dumps(request) + "\n")
+        server.stdin.flush()
+        status = int(server.stdout.readline())
+        told = [(Path(streams) / name).read_text() for name in STREAMS[1:]]
+    return subprocess.CompletedProcess(arguments, status, *told)
+
+
+@functools.cache
+def _server() -> subprocess.Popen[str]:
+    """Return the process that the others are forked from; it ends with this one."""
+    variables = os.environ | {"PYTHONPATH": PATH, "OPENBLAS_NUM_THREADS": "1"}
+    server = subprocess.Popen(
+        [sys.executable, "-P", __file__],
+        env=variables,
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    atexit.register(server.communicate)
+    return server
+
+
+def _serve() -> dict[str, Any]:
+    """Answer each request with the exit status of a process. Return the request in that process."""
+    for line in iter(sys.stdin.readline, ""):
+        process = os.fork()
+        if not process:
+            return json.loads(line)
+        status = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+        os.write(1, f"{status}\n".encode())
+    sys.exit()
+
+
+def _become(request: dict[str, Any]) -> None:
+    """Run what is asked for, as if this process had been started for it."""
+    for number, name in enumerate(request["streams"]):
+        opened = os.open(name, os.O_RDWR | os.O_CREAT)
+        os.dup2(opened, number)
+        os.close(opened)
+    os.chdir(request["folder"])
+    os.environ.clear()
+    os.environ.update(request["environment"])
+    signal.alarm(int(request["limit_s"]))
+    kind, *rest = request["arguments"]
+    match kind:
+        case "-c":
+            script, *sys.argv[1:] = rest
+            exec(script, {"__name__": "__main__"})
+        case "-m":
+            module, *sys.argv[1:] = rest
+            runpy.run_module(module, run_name="__main__", alter_sys=True)
+        case _:
+            sys.argv = [kind, *rest]
+            runpy.run_path(kind, run_name="__main__")
+
+
+if __name__ == "__main__":
+    import stepped  # noqa: F401  the window, and what tests do with it
+
+    import lucida.app.window.launch
+    import lucida.renderer.trace  # noqa: F401
+
+    gc.freeze()  # or a collection would write to all pages, which then are copied
+    _become(_serve())
