@@ -7,12 +7,13 @@ from typing import NamedTuple
 import numpy as np
 
 from lucida.renderer.camera.camera import Camera
-from lucida.renderer.images.display import encode_srgb
+from lucida.renderer.images.display import from_srgb
 from lucida.renderer.images.frame import Frame
 from lucida.renderer.scene.boxes import corners_of
 from lucida.renderer.scene.flat import FlatScene
 
 DARK = 1.5 / 255  # a display value; darker images look black
+DARK_LIGHT = float(from_srgb(DARK))
 NO_LIGHT = 1e-6  # linear: invisible at any usual exposure
 
 
@@ -42,8 +43,7 @@ class Darkness(NamedTuple):
         """
         if self.reason is not None:
             return self.reason
-        light = np.float32(min(self.brightest * 2.0**exposure_ev, 1.0))
-        if float(light if is_linear else encode_srgb(light)) >= DARK:
+        if self.brightest * 2.0**exposure_ev >= (DARK if is_linear else DARK_LIGHT):
             return None
         text = f"the exposure is {exposure_ev:+.3g} EV; the brightest pixel is {self.brightest:.2g}"
         return Reason("exposure", text)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from importlib import metadata
 
@@ -38,6 +39,7 @@ def licence(distribution: metadata.Distribution) -> str:
     return " ".join(said)
 
 
+@functools.cache
 def packages() -> dict[str, metadata.Distribution]:
     found: dict[str, metadata.Distribution] = {}
     required("camera-lucida", found, ("film", "notebook"))

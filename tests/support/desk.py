@@ -135,6 +135,8 @@ class Desk:
             if (now != last).any():
                 last, rest = now, _Rest(self.program)
                 parts.append(_black(now))
+            else:
+                time.sleep(0.01)  # a frame takes longer, and needs the processor
         return parts
 
 

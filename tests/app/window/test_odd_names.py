@@ -130,6 +130,7 @@ def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch):
     assert dropped == [["/a/caf\udce9.obj", "/b/é.obj"]]
 
 
+@pytest.mark.parametrize("model", [NAMES[1], NAMES[-1]], indirect=True)
 def test_commands_name_it_on_any_terminal(model):
     environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
     command = [sys.executable, "-m", "lucida", "scene", model]

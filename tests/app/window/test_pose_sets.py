@@ -67,7 +67,8 @@ def test_the_command_line_opens_a_set_and_draws_it(tmp_path):
     pictures = []
     for source in ("transforms.json", "still-life"):
         picture = tmp_path / f"{len(pictures)}.png"
-        done = launch(["-m", "lucida", source, "--screenshot", str(picture)], tmp_path)
+        arguments = ["--screenshot", str(picture), "--size", "640x400"]
+        done = launch(["-m", "lucida", source, *arguments], tmp_path)
         assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
         pictures.append(np.asarray(Image.open(picture).convert("RGB")).astype(int))
     differ = np.abs(pictures[0] - pictures[1]).max(axis=2) > 8

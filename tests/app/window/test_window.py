@@ -208,9 +208,9 @@ from lucida.renderer.files import load_scene
 
 platform = start_platform()
 assert platform.has_display, platform.reason
-run = WindowRun(platform, AppState.for_scene(load_scene("still-life")), (1000, 700), remember=False)
+run = WindowRun(platform, AppState.for_scene(load_scene("still-life")), (900, 600), remember=False)
 run.params.fps_idling.enable_idling = False
-sizes, still = [(1000, 700), (800, 500), (1300, 820), (640, 480)], 0
+sizes, still = [(900, 600), (640, 480), (1100, 700)], 0
 
 def look(target):
     global still
