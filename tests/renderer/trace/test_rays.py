@@ -52,10 +52,10 @@ def test_the_closest_hit_is_the_references(make, team):
     flat = flatten(scene)
     instances = Instances(scene, flat, team)
     random = np.random.default_rng(6)
-    origins = random.uniform(-3, 3, (32_000, 3)).astype(np.float32)
-    directions = random.normal(size=(32_000, 3)) * 10 ** random.uniform(-3, 3, (32_000, 1))
+    origins = random.uniform(-3, 3, (50_000, 3)).astype(np.float32)
+    directions = random.normal(size=(50_000, 3)) * 10 ** random.uniform(-3, 3, (50_000, 1))
     directions = directions.astype(np.float32)
-    directions[:3200, :2] = 0  # along an axis
+    directions[:5000, :2] = 0  # along an axis
     for t_min, t_max in ((0.0, np.inf), (0.3, 1.0)):
         t, primitive = closest_hits(instances, team, origins, directions, t_min, t_max)
         exact_t, exact, *_ = cast(
@@ -63,7 +63,7 @@ def test_the_closest_hit_is_the_references(make, team):
         )
         same = primitive == exact
         # What differs is grazed, or met within rounding of a limit or of an edge.
-        assert np.count_nonzero(~same) < 8
+        assert np.count_nonzero(~same) < 12
         hit = same & (primitive >= 0)
         assert np.count_nonzero(hit) > 100
         error = np.abs(t[hit] / exact_t[hit] - 1)
