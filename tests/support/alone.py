@@ -38,4 +38,4 @@ def show_only(d: Driver, names: Container[str]) -> None:
     """Hide all views but these."""
     for name, view in d.stage.views.items():
         layout.window_of(view).is_visible = name in names
-    d.frames(3)
+    d.frames(2)

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 from window_driver import Driver
 
 from lucida.app.lecture.model import Lecture
@@ -34,6 +37,24 @@ def give(d: Driver, text: str = SMALL) -> Lecture:
     lecture_of(d).give(lecture, path)
     d.settle()
     return lecture
+
+
+@contextmanager
+def untraced(d: Driver) -> Iterator[None]:
+    """Trace no image, and wait for none: nobody looks at it."""
+    live = d.renderers.live
+
+    def rest() -> None:
+        d.frames(2)
+        d.until(lambda: lecture_of(d).settled and not d.window.motions.under_way)
+        assert not d.stage.failed.errors
+        d.frames()
+
+    live.request, d.settle = (lambda *_: None), rest  # type: ignore[method-assign]
+    try:
+        yield
+    finally:
+        del live.request, d.settle
 
 
 def shown(d: Driver) -> set[str]:

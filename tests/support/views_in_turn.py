@@ -47,7 +47,7 @@ def views_in_turn(d: Driver, pages: Sequence[str] = PAGES) -> Iterator[str]:
         for page in pages if name == LABORATORY else ("",):
             if page:
                 d.change(laboratory={"page": page})
-            d.frames(6)
+            d.frames(3)
             d.until(lambda name=name: stage.views[name].settled)
             yield f"{name} {page}"
     show_only(d, before)

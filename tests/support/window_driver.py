@@ -4,7 +4,8 @@
 
 runs every function of scenarios/TOPIC.py whose name begins with `drive_` (or the one named), in
 order, in one window, and writes a JSON object from their names to "" or the traceback of their
-failure. Pictures of the window are left in FOLDER. test_window.py runs it and tells the results.
+failure. FOLDER has the last pictures of one that failed. test_window.py runs it and tells the
+results.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import sys
 import threading
 import time
 import traceback
+from collections import deque
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
@@ -52,7 +54,7 @@ toasts.SHOWN_S = 1e9  # nor what is still told
 ground.SHIFTS = ground.SHIFTS[-1:]  # one picture in place of the mean of five, for smooth edges
 FRAME_S = 1 / 60  # what ImGui takes a frame for: clicks are double ones however slow frames are
 PROMPT_FRAMES = 8  # what the window does by itself takes some frames; threads take longer
-WAIT_S = 0.05
+WAIT_S, LONGEST_WAIT_S = 0.05, 0.5  # the first, and where nothing wakes the window
 ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still being laid out
 PATIENT_S = 300.0  # the first tracing compiles
 IMAGES = {name: f"//###{name}/image##{name}" for name in (RASTER, RAY)}
@@ -72,7 +74,7 @@ class Driver:
         self.ctx: Any = None
         self.drop: Callable[[list[str]], None] = lambda paths: None  # files, upon the window
         self.stay = False  # the mouse, while a picture is taken
-        self._pictures = 0
+        self._pictures: deque[np.ndarray] = deque(maxlen=4)
         skip_unseen(self.run)
         self.files.native = False  # the system's dialogs, which would wait for somebody
         on_drop = main_window.on_drop
@@ -118,7 +120,8 @@ class Driver:
         self.window.end_movement()
         self.window.motions.transition.instant = True  # no passage unless a test wants one
         self.stay = False
-        self.ctx.mouse_up(0)  # a test that failed may hold it
+        if imgui.is_mouse_down(0):  # a test that failed may hold it
+            self.ctx.mouse_up(0)
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
         self.resize(SIZE)
 
@@ -128,7 +131,7 @@ class Driver:
             self.window.lecture.leave(self.window)
         first = layout.LAYOUTS[0]
         layout.switch(first.name)
-        self.frames(3)
+        self.frames(2)
         for view in self.stage.views.values():
             layout.window_of(view).is_visible = view.name in first.places
         layout.reset()
@@ -159,23 +162,24 @@ class Driver:
 
     def until(self, condition: Callable[[], bool]) -> None:
         end_s = time.monotonic() + PATIENT_S
-        frames = 0
+        frames, wait_s = 0, WAIT_S
         while not condition():
             assert time.monotonic() < end_s, "nothing happened"
             self.frames()
             frames += 1
             if frames > PROMPT_FRAMES:
                 # Each frame takes a processor from the threads that the test waits for.
-                self.window.news.wait(WAIT_S)
+                self.window.news.wait(wait_s)
                 self.window.news.clear()
+                wait_s = min(1.1 * wait_s, LONGEST_WAIT_S)
 
     def settle(self) -> None:
         """Until both images are complete and compared."""
-        self.frames(3)
+        self.frames(2)
         failures = self.stage.failed.errors
         self.until(lambda: self.window.settled or bool(failures))
         assert not failures, failures
-        self.frames(2)
+        self.frames()
 
     def picture(self) -> np.ndarray:
         """Return what the window shows, uint8 (height, width, 3)."""
@@ -188,10 +192,13 @@ class Driver:
         self.run.on_drawn = look
         self.until(lambda: bool(seen))
         self.run.on_drawn = None
-        self._pictures += 1
-        path = self.folder / f"{self._pictures:02d}.png"
-        Image.fromarray(seen[-1]).save(path, compress_level=1)
+        self._pictures.append(seen[-1])
         return seen[-1]
+
+    def save_pictures(self, name: str) -> None:
+        """Leave the last pictures in the folder, for whoever looks at a failure."""
+        for number, seen in enumerate(self._pictures):
+            Image.fromarray(seen).save(self.folder / f"{Path(name).name}-{number}.png")
 
     def in_draw_lists(self, read: Callable[[], Found]) -> Found:
         """Return what `read` finds in the draw lists of a frame, of which no pixel is drawn."""
@@ -247,7 +254,7 @@ class Driver:
                 deviations = f"standard deviations {raster.std():.1f} and {ray.std():.1f}"
                 seen = f"{different:.2%} of the pixels differ on the screen; {deviations}"
             # Otherwise a message has come or gone in this frame, and the images' room with it.
-            print(f"attempt {attempt}: {seen} in {self._pictures:02d}.png")
+            print(f"attempt {attempt}: {seen}")
             self.settle()
         raise AssertionError(seen)
 
@@ -258,36 +265,34 @@ class Driver:
 
     def drag(self, start: tuple[float, float], end: tuple[float, float], button: int = 0) -> None:
         self.ctx.mouse_teleport_to_pos(start)
-        self.frames()
         self.ctx.mouse_down(button)
-        for part in (0.25, 0.5, 0.75, 1.0):
+        for part in (0.25, 0.5, 1.0):
             x, y = (a + part * (b - a) for a, b in zip(start, end, strict=True))
             self.ctx.mouse_teleport_to_pos((x, y))
-            self.frames()
         self.ctx.mouse_up(button)
         self.frames()
 
     def press(self, chord: int) -> None:
         """Press keys, and draw the frames in which they have their effect. So do the next four."""
         self.ctx.key_press(chord)
-        self.frames(3)
+        self.frames()
 
     def click(self, item: str, button: int = 0) -> None:
         self.ctx.item_click(item, button)
-        self.frames(3)
+        self.frames()
 
     def menu(self, path: str) -> None:
         self.ctx.menu_click(f"//##MainMenuBar/{path}")
-        self.frames(3)
+        self.frames()
 
     def move_to(self, place: tuple[float, float]) -> None:
         self.ctx.mouse_teleport_to_pos(place)
-        self.frames(3)
+        self.frames()
 
     def click_at(self, place: tuple[float, float]) -> None:
         self.move_to(place)
         self.ctx.mouse_click(0)
-        self.frames(3)
+        self.frames()
 
     def box(self, item: str) -> imgui.internal.Rect:
         """Return the rectangle of an item in the window."""
@@ -304,7 +309,7 @@ class Driver:
         """Double-clicks a field and types."""
         self.ctx.item_double_click(self.field(name))
         self.ctx.key_chars_replace_enter(text)
-        self.frames(2)
+        self.frames()
 
 
 def changed(before: np.ndarray, after: np.ndarray) -> float:
@@ -353,6 +358,7 @@ def main(report: Path, folder: Path, names: list[str]) -> None:
                 results[name] = "the test engine found an error" if ctx.is_error() else ""
             except BaseException:
                 results[name] = traceback.format_exc()
+                driver.save_pictures(name)
             if name == list(tests)[-1]:
                 params.app_shall_exit = True
 

@@ -8,7 +8,7 @@ from window_driver import FRAME_S, Key
 from lucida.app.ui import theme
 from lucida.app.window.menu_keys import BAR
 
-STEPS_BACK = 8  # to controls where Tab was before, one after another: it is round
+STEPS_BACK = 4  # to controls where Tab was before, one after another: it is round
 ALT, CTRL, SHIFT = (key for key in (Key.mod_alt, Key.mod_ctrl, Key.mod_shift))
 OTHERS = int(imgui.ItemFlags_.disabled)
 Box = tuple[int, int, int, int]  # left, top, right, bottom

@@ -12,9 +12,9 @@ from lucida.app.lecture.view import LECTURE
 from lucida.app.ui import layout
 from lucida.app.ui.theme import framebuffer_scale
 
-SPOILED = (1, 9, 21, 30)  # steps with images, without, and with a resolution
-JUMPS = (0, 33, 3, 30, 1, 22, 12, 21, 2)
-VISITED = sorted({*SPOILED, *JUMPS, *range(0, 36, 6)})
+SPOILED = (1, 21, 30)  # steps with images, without, and with a resolution
+JUMPS = (33, 12, 0)
+VISITED = sorted({*SPOILED, *JUMPS})
 STILL = 6  # frames in which a mark finds its image's size
 
 
@@ -26,7 +26,7 @@ def _begin(d):
 
 def _rest(d):
     d.settle()
-    d.frames(2 * STILL)
+    d.frames(STILL)
     d.settle()
 
 

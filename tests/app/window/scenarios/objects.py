@@ -16,6 +16,7 @@ from objects_window import (
 from option_changes import with_options
 from window_driver import RASTER, RAY, Key
 
+from lucida.app.instruments.objects.actions import ADDING
 from lucida.app.instruments.objects.choosing import choose, chosen, rows_of
 from lucida.app.instruments.objects.in_views import CHOSEN
 from lucida.app.instruments.outside.view import OUTSIDE
@@ -134,17 +135,18 @@ def drive_a_number_that_is_dragged_is_one_step(d):
 def drive_every_shape_and_light_is_added_and_both_images_agree(d):
     enter(d)
     window = d.window
-    for kind in (*objects.SHAPES, *objects.LIGHTS):
-        light = kind in objects.LIGHTS
-        name = f"Add {kind} light" if light else f"Add {kind}"
+    *kinds, _ = ADDING  # the last one opens a dialog
+    assert len(kinds) == len((*objects.SHAPES, *objects.LIGHTS))
+    for action in kinds:
         before = {row.item for row in rows_of(window.state.scene)}
-        d.menu(f"Scene/Add/{name}")
+        if action is kinds[-1]:
+            d.menu(f"Scene/Add/{action.name}")
+        else:
+            action.run(window)
         (new,) = {row.item for row in rows_of(window.state.scene)} - before
         assert chosen(window.state) == (new,)
     d.agreeing_images()
-    assert len(rows_of(window.state.scene)) == len(rows_of(d.start.scene)) + len(
-        (*objects.SHAPES, *objects.LIGHTS)
-    )
+    assert len(rows_of(window.state.scene)) == len(rows_of(d.start.scene)) + len(kinds)
 
 
 # Many objects, large type.

@@ -54,10 +54,10 @@ def drive_the_legend_switches(d):
     for name in ("basis", "image", "grid", "volume", "ray"):
         press(d, f"Show {name}")
         assert not getattr(window.state.options.outside, name)
-        d.frames(2)
+        d.frames()
         assert not strokes(d, {"basis": "u", "image": "none", "volume": "edges"}.get(name, name))
-        press(d, f"Show {name}")
-        assert getattr(window.state.options.outside, name)
+    press(d, f"Show {name}")
+    assert getattr(window.state.options.outside, name)
     press(d, "Show bundle")
     rows, columns = window.state.options.outside.bundle
     d.settle()

@@ -36,11 +36,11 @@ def boxes(d):
         opened[menu] = lambda path=path: d.ctx.menu_action(TestAction.hover, path)
     for name, open_it in opened.items():
         open_it()
-        d.frames(4)
+        d.frames(2)
         yield name
         d.press(ESCAPE)
     files.message = "lecture.toml:34: steps[3].options.images.channel: 'depht' is unknown; " * 2
-    d.frames(4)
+    d.frames(2)
     yield "message"
     files.message = ""
 
@@ -74,7 +74,6 @@ def layouts(d):
         if one.name != layout.LECTURE:
             d.layout(one.name)
             d.until(lambda: all(view.settled for view in d.stage.shown))
-            d.frames(2)
             yield one.name
 
 
