@@ -18,7 +18,7 @@ from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Checker, Mesh, PointLight, Scene, SceneObject, Sphere
 from tools.attack.random_scenes import random_camera
 
-CAMERAS = 25
+CAMERAS = 12
 
 SCENES = {"crowd": crowd, **{name: lambda name=name: load_scene(name) for name in BUILTIN_SCENES}}
 

@@ -185,9 +185,14 @@ def tree_of(flat: FlatScene, leaf_size: int = 4) -> Tree:
     return tree_of_scene(flat, team, leaf_size)
 
 
-@kernel
 def cast(tree, origins, directions, t_min, t_max):
     """(t, primitive, b1, b2) of rays (n, 3)."""
+    rays = (np.array(part, float, order="C") for part in (origins, directions))  # of one type
+    return _cast(tree, *rays, t_min, t_max)
+
+
+@kernel
+def _cast(tree, origins, directions, t_min, t_max):
     n = len(origins)
     t, b1, b2 = np.empty(n), np.empty(n), np.empty(n)
     primitive = np.empty(n, np.int64)

@@ -247,7 +247,7 @@ def test_the_triangles_of_a_scene_are_counted_before_all_are_made(monkeypatch) -
 
 
 HEAVY = {
-    "torus": "{type = 'torus', segments = 1024, sides = 1024},",
+    "torus": "{type = 'torus', segments = 256, sides = 1024},",
     "cylinder": "{type = 'cylinder', segments = 1024},",
     "cone": "{type = 'cone', segments = 1024},",
     "disk": "{type = 'disk', segments = 1024},",

@@ -13,7 +13,7 @@ from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.compare.raster_and_ray import CHANNELS, compare_frames
 from lucida.renderer.scene.flat import flatten
 
-SIZE = (48, 32)
+SIZE = (36, 24)
 EYE = Camera.look_at((2, 1.5, 4), (0, 0, 0), aspect=1.5)
 # Each lens, and half the width of its viewport.
 LENSES = {

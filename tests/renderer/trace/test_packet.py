@@ -103,7 +103,7 @@ def test_telephoto(distance, projection, both):
         half = part * (1 if projection == "parallel" else 1 / np.linalg.norm(eye))
         camera = Camera.look_at(eye, (0.85, 0.1, 0.4))
         camera = replace(camera, viewport=(-half, half, -half, half), projection=projection)
-        pair.check(camera, (128, 128))
+        pair.check(camera, (64, 64))
 
 
 def test_pixel_centres_on_vertices_and_edges_are_covered(both):

@@ -69,7 +69,6 @@ def start(installation, cache, script=SCRIPT):
     env = {name: text for name, text in os.environ.items() if not name.startswith("NUMBA_")}
     env |= {
         "PYTHONPATH": str(installation.parents[1]),
-        "PYTHONPYCACHEPREFIX": str(installation.parents[1] / "byte-code"),
         "HOME": str(cache),
         "XDG_CACHE_HOME": str(cache),
         "LOCALAPPDATA": str(cache),
@@ -92,17 +91,19 @@ def test_a_read_only_installation_caches_for_the_user(installation, tmp_path):
     for process in [start(installation, cache) for _ in range(2)]:  # both compile, at once
         folder = finish(process).rsplit(" ", 1)[0]
         assert Path(folder).is_relative_to(cache)
-    assert finish(start(installation, cache)) == f"{folder} True"
     assert Path(folder).name != source_hash()  # of the same sources at another place
 
     # A damaged file costs compiling again: at once, and at the next start for the cache.
-    for file in Path(folder).rglob("*.nb?"):
+    files = list(Path(folder).rglob("*.nb?"))
+    assert files
+    for file in files:
         file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
-    for is_loaded in (False, False, True):
-        assert finish(start(installation, cache)) == f"{folder} {is_loaded}"
+    for _ in range(2):
+        assert finish(start(installation, cache)) == f"{folder} False"
 
     # An edit of any file that kernels consist of leads to another folder.
-    folders = finish(start(installation, cache, EDITS)).splitlines()
+    told, *folders = finish(start(installation, cache, SCRIPT + EDITS)).splitlines()
+    assert told == f"{folder} True"
     assert folders[0] == folder and len(set(folders)) == 5
 
 

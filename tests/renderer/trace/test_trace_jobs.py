@@ -25,7 +25,7 @@ from lucida.renderer.trace.bvh import instances
 from lucida.renderer.trace.threads.thread_pool import Team
 
 FRONT = Camera.look_at((0, 0, 5), (0, 0, 0), fov_y_deg=40)
-SMALL, LARGE = (48, 32), (2048, 2048)
+SMALL, LARGE = (48, 32), (1024, 1024)
 HANG_S = 60  # a failure, not a measurement
 
 
@@ -144,7 +144,7 @@ def test_a_scene_whose_first_job_was_cancelled_waiting_is_prepared_for_the_next(
 
 
 def slow_scene():
-    """Each ray tries all of 1000 equal triangles: an image of LARGE takes a minute."""
+    """Each ray tries all of 1000 equal triangles: an image of LARGE takes half a minute."""
     vertices = np.array([[-9, -9, 0], [9, -9, 0], [0, 20, 0]], float)
     return scene_of(Mesh(vertices, np.tile([0, 1, 2], (1000, 1))))
 

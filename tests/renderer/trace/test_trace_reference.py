@@ -12,7 +12,7 @@ ALL = ("color", "depth", "normal", "id", "primitive")
 SIZE = (37, 29)
 
 
-@pytest.mark.parametrize("seed", range(24))
+@pytest.mark.parametrize("seed", range(12))
 def test_images_match_the_reference(seed):
     random = np.random.default_rng(seed)
     scene, camera = random_scene(random), random_camera(random, near_far=seed % 3 == 0)
@@ -38,7 +38,7 @@ def test_images_match_the_reference(seed):
 
 def test_rays_are_the_cameras_to_the_last_bit():
     random = np.random.default_rng(5)
-    for _ in range(20):
+    for _ in range(10):
         camera = random_camera(random)
         want = camera.rays(SIZE)
         origin, direction = kernel_rays(KernelView.of(camera), *SIZE)

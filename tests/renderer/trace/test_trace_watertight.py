@@ -39,7 +39,7 @@ def test_rays_at_vertices_and_edges_do_not_leak(kind):
     random = np.random.default_rng(4)
     centre = vertices.mean(axis=0)
     a, b = vertices[flat.faces], vertices[np.roll(flat.faces, 1, axis=1)]
-    for spot in range(12):
+    for spot in range(6):
         inside = random.integers(len(vertices), size=4)
         eye = centre if spot == 0 else 0.3 * centre + 0.7 * vertices[inside].mean(axis=0)
         along = random.uniform(size=(*a.shape[:2], 1))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from option_changes import with_options
+from recorded_runs import SCENES
 
 from lucida.app.instruments.stepper import julia, loop_parts, raster_parts
 from lucida.app.instruments.stepper.loop_parts import Model
@@ -16,8 +17,8 @@ from lucida.app.instruments.stepper.source import shown_lines, source_of
 from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.step_options import state_of
 from lucida.app.state.app_state import AppState
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.pixels import Indexing
-from lucida.renderer.files import load_scene
 
 # The stepper's loops.
 
@@ -75,9 +76,7 @@ def test_the_loops_draw_the_same_however_they_are_shown(program, language, index
         "Canvas": lambda *given: array(loop_parts.Canvas(*given)),
     }
     exec(compile(text, language, "exec"), names)
-    scene = load_scene("canonical")
-    model, size = Model(scene), (12, 9)
-    camera = scene.view.for_size(size)
+    model, size, camera = Model(SCENES[program]), (12, 9), Camera.canonical()
     drawn = names[program.__name__](model, camera, size)
     told = program(model, camera, size)
     np.testing.assert_array_equal(getattr(drawn, "made", drawn).array, told.array)

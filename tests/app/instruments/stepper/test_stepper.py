@@ -28,12 +28,13 @@ def test_all_loops_end_in_the_renderers_image(name: str, rasterizer) -> None:
     scene = load_scene(name)
     model = Model(scene)
     own, *others = cameras(scene, np.random.default_rng(7))
-    other = others[BUILTIN_SCENES.index(name) % len(others)]  # each kind in some scene
-    mirrored = replace(other, u=tuple(-x for x in other.u))  # wound back
+    number = BUILTIN_SCENES.index(name)
+    other = others[number % len(others)]  # each kind in some scene, and some wound back
+    other = replace(other, u=tuple(-x for x in other.u)) if number % 2 else other
     rasterizer.set_scene(scene)
     hits = 0
     with Tracer(scene) as tracer, Tracer(scene, method="reference") as reference:
-        for number, camera in enumerate((own, other, mirrored)):
+        for number, camera in enumerate((own, other)):
             by_triangles, by_image = (
                 run(model, camera, SIZE).array for run in (rasterization, image_order)
             )
