@@ -46,6 +46,14 @@ def definitions(tree):
                     yield part.id, node
 
 
+def dotted(node):
+    """Return the names of an expression like a.b.c; () for another one."""
+    if isinstance(node, ast.Name):
+        return (node.id,)
+    names = dotted(node.value) if isinstance(node, ast.Attribute) else ()
+    return (*names, node.attr) if names else ()
+
+
 def uses(module, tree):
     """(module, name) of what a module reads: its own names, imported ones, and attributes of
     imported modules."""
@@ -66,8 +74,8 @@ def uses(module, tree):
     for node in ast.walk(tree):
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
             yield module, node.id
-        elif isinstance(node, ast.Attribute):
-            first, *rest = ast.unparse(node).split(".")
+        elif isinstance(node, ast.Attribute) and (names := dotted(node)):
+            first, *rest = names
             parts = [*named.get(first, first).split("."), *rest]
             for end in range(1, len(parts)):
                 yield ".".join(parts[:end]), parts[end]

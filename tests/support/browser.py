@@ -64,11 +64,13 @@ class Page:
             assert time.monotonic() < end, expression
             self.tab.wait_for_timeout(50)
 
-    def axe(self) -> list[Any]:
+    def axe(self, options: str = "") -> list[Any]:
         """Return what axe finds. (DevTools evaluate it where the page's policy forbids it.)"""
-        session = self.tab.context.new_cdp_session(self.tab)
-        session.send("Runtime.evaluate", {"expression": axe_script()})
-        return self.tab.evaluate("axe.run(document, {resultTypes: ['violations']})")["violations"]
+        if not self.tab.evaluate("'axe' in window"):
+            session = self.tab.context.new_cdp_session(self.tab)
+            session.send("Runtime.evaluate", {"expression": axe_script()})
+        run = f"axe.run({{{options} resultTypes: ['violations']}})"
+        return self.tab.evaluate(run)["violations"]
 
     def image(self, kind: str, size: tuple[int, int]) -> np.ndarray:
         """Return a finished image of window.lucida: uint8 (height, width, 3)."""

@@ -46,7 +46,8 @@ def untraced(d: Driver) -> Iterator[None]:
 
     def rest() -> None:
         d.frames(2)
-        d.until(lambda: lecture_of(d).settled and not d.window.motions.under_way)
+        window = d.window
+        d.until(lambda: d.stage.settled and not (window.files.busy or window.motions.under_way))
         assert not d.stage.failed.errors
         d.frames()
 

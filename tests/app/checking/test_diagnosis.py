@@ -33,7 +33,7 @@ RAY_TASKS = {
 }  # fmt: skip
 TASKS = {task.name: task for task in BUILTIN}
 VALUES = [task for task in BUILTIN if task.kind != "viewing-ray" and "parallel" not in task.name]
-SHARES = 2  # of the mistakes in rays, each of which takes a search through all others
+SHARES = 4  # of the mistakes in rays, each of which takes a search through all others
 LOOPS = 30  # mistakes in the lines of both loops; the others are those of rays
 
 
@@ -104,7 +104,7 @@ def test_two_mistakes_at_once_are_named(projection):
     program, cases = program_of(task), made_cases(2, 8, projection)
     right, pairs, exactly = right_rays(cases), list(program.pairs()), 0
     assert len(pairs) > 200
-    chosen = np.random.default_rng(5).choice(len(pairs), 8, replace=False)
+    chosen = np.random.default_rng(5).choice(len(pairs), 4, replace=False)
     for pair in (pairs[number] for number in chosen):
         rays = rays_with(task, cases, pair)
         if same(rays, right):
@@ -114,16 +114,16 @@ def test_two_mistakes_at_once_are_named(projection):
         exactly += pair in found
         for others in found:
             assert same(rays, rays_with(task, cases, others)), (pair, others)
-    assert exactly >= 6
+    assert exactly >= 3
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_right_answers_of_1_000_cameras_have_no_name(projection):
+def test_right_answers_of_400_cameras_have_no_name(projection):
     """A pixel of each, computed in float32: even if they were handed over as wrong."""
     random = np.random.default_rng(7)
     task = ray_task_of(projection)
     program, cases = program_of(task), []
-    for number in range(1_000):
+    for number in range(400):
         camera = made_camera(random, CAMERAS[number % len(CAMERAS)], projection)
         width, height = random.integers(2, 2000, 2).tolist()
         pixel = (int(random.integers(height)), int(random.integers(width)))
@@ -132,8 +132,8 @@ def test_right_answers_of_1_000_cameras_have_no_name(projection):
     given = right_rays(cases)
     given[:, 1] *= length[:, None]
     given = given.astype(np.float32).astype(float)
-    for first in range(0, len(cases), 250):
-        part = slice(first, first + 250)
+    for first in range(0, len(cases), 200):
+        part = slice(first, first + 200)
         assert candidates(program, trials_of(task, cases[part], given[part])) == ()
 
 

@@ -13,8 +13,7 @@ def open_section(d, name):
 
 
 def close_sections(d):
-    for name in ("Look at", "K, R and t", "Lens", "More"):
-        d.ctx.item_close(f"//Camera/{name}")
+    d.window.views["Camera"].open_sections(())
     d.frames(2)
 
 
@@ -29,11 +28,11 @@ def drive_all_of_the_main_part_is_seen_without_scrolling(d):
     panel = d.ctx.get_window_by_ref("//Camera")
     for scale in (1.5, 1.0):
         d.change(preferences={"font_scale": scale})
-        d.settle()
+        d.frames(4)
         assert panel.scroll_max.y == 0
         assert d.box("//Camera/Look at").max.y < panel.rect().max.y
     open_section(d, "More")
-    d.settle()
+    d.frames(2)
     assert panel.scroll_max.y == 0
     close_sections(d)
 

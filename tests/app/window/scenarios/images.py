@@ -77,9 +77,8 @@ def drive_channels_follow_a_drag(d):
     center = d.box(d.field("w.x")).get_center()
     d.ctx.mouse_teleport_to_pos((center.x, center.y))
     d.ctx.mouse_down(0)
-    for step in range(1, 20):
-        d.ctx.mouse_teleport_to_pos((center.x + 2 * step, center.y))
-        d.frames()
+    for step in range(1, 8):
+        d.ctx.mouse_teleport_to_pos((center.x + 5 * step, center.y))
         image = both.ray_image
         assert image is not None
         assert image.frame.depth is not None

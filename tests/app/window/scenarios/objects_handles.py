@@ -10,7 +10,7 @@ from objects_window import (
     now,
 )
 from option_changes import with_options
-from window_driver import RASTER, Key
+from window_driver import RASTER, Driver, Key
 
 from lucida.app.instruments.objects.choosing import choose
 from lucida.app.instruments.outside.view import OUTSIDE
@@ -19,7 +19,7 @@ from lucida.app.instruments.outside.view import OUTSIDE
 def drive_handles_move_in_the_images_and_outside(d):
     enter(d)
     window = d.window
-    d.change(objects={"handle": "move"})
+    d.change(objects={"handle": "move"}, images={"resolution": (80, 60)})
     for view in (RASTER, OUTSIDE):
         window.amend(choose(window.state, (item(d, "shiny sphere"),)))
         d.settle()
@@ -38,34 +38,34 @@ def drive_handles_move_in_the_images_and_outside(d):
 
 def drive_escape_and_undo_end_the_drag_of_a_handle(d):
     choose_to(d, "move", "shiny sphere")
-    window = d.window
-    for view in (RASTER, OUTSIDE):
+    for view, ends in ((RASTER, (_escape, Driver.undo)), (OUTSIDE, (_escape,))):
         steps, before = d.steps, ball(d, "shiny sphere").center
-        for end in (lambda: d.press(Key.escape), window.undo):
+        for end in ends:
             grip, way = arrow(d, view, "shiny sphere", 1)
             d.move_to(tuple(grip))
             d.ctx.mouse_down(0)
             for length in (5, 25):
                 d.move_to(tuple(grip + length * way))
             assert ball(d, "shiny sphere").center != before, view
-            end()
-            d.frames(3)
+            end(d)
+            d.frames()
             d.ctx.mouse_teleport_to_pos(tuple(grip + 40 * way))  # the mouse is still down
-            d.frames(3)
             d.ctx.mouse_up(0)
-            d.frames(3)
+            d.frames()
             assert ball(d, "shiny sphere").center == before, view
             assert d.steps == steps
             assert now(d) == ("shiny sphere",)
-        drag_handle(d, view, "shiny sphere", 1)  # and it can be dragged again
-        assert ball(d, "shiny sphere").center != before
-        window.undo()
-        d.settle()
+    drag_handle(d, view, "shiny sphere", 1)  # and it can be dragged again
+    assert ball(d, "shiny sphere").center != before
+
+
+def _escape(d):
+    d.press(Key.escape)
 
 
 def choose_to(d, handle, name):
     """An object with handles that do this."""
     enter(d)
-    state = with_options(d.state, objects={"handle": handle})
+    state = with_options(d.state, objects={"handle": handle}, images={"resolution": (80, 60)})
     d.window.change(choose(state, (item(d, name),)))
     d.settle()

@@ -1,7 +1,7 @@
 """Into the pixels: marks, magnification, rulers, values; on the screen's pixels."""
 
 import numpy as np
-from shown_pixels import ALT, SHIFT, choose, magnified, placement, without_overlays
+from shown_pixels import ALT, SHIFT, magnified, placement, without_overlays
 from window_driver import Key
 
 from lucida.app.images.pair.view import RASTER, RAY
@@ -49,7 +49,8 @@ def drive_a_click_marks_a_pixel_in_both(d):
 
 def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d):
     window = d.window
-    choose(d, "Resolution/640 x 360")
+    d.change(images={"resolution": (640, 360)})
+    d.settle()
     x, y = d.point(RASTER, 0.3, 0.6)
     x, y = round(x), round(y)
     d.move_to((x, y))
@@ -82,9 +83,8 @@ def drive_the_wheel_with_ctrl_magnifies_at_the_pointer(d):
 
 
 def drive_magnified_pixels_are_squares_with_a_grid(d):
-    choose(d, "Resolution/160 x 90")
-    choose(d, "Magnification/8x")
-    d.change(images={"center": (0.4, 0.6), "grid": False})
+    images = {"resolution": (160, 90), "magnification": 8.0, "center": (0.4, 0.6), "grid": False}
+    d.change(images=images)
     d.settle()
     plain = d.images()
     for name, image in zip((RASTER, RAY), plain, strict=True):
@@ -102,7 +102,8 @@ def drive_magnified_pixels_are_squares_with_a_grid(d):
         inner = without_overlays(np.dstack([lines, np.broadcast_to(expected, lines.shape)]))
         assert (inner[..., 0] <= inner[..., 1]).all(), "lines stand between pixels only"
         assert inner[..., 0].sum() > 0.9 * inner[..., 1].sum()
-    choose(d, "Magnification/4x")
+    d.change(images={"magnification": 4.0})
+    d.settle()
     fine = d.images()
     d.press(ALT | Key.x)
     d.settle()
@@ -111,8 +112,7 @@ def drive_magnified_pixels_are_squares_with_a_grid(d):
 
 def drive_values_are_written_into_large_pixels(d):
     window = d.window
-    choose(d, "Resolution/64 x 36")
-    choose(d, "Magnification/64x")
+    d.change(images={"resolution": (64, 36), "magnification": 64.0})
     for number, channel in enumerate(("color", "depth", "normal", "id")):
         d.press(ALT | (Key._1 + number))
         d.settle()
@@ -120,12 +120,8 @@ def drive_values_are_written_into_large_pixels(d):
         raster = d.images()[0]
         cell = without_overlays(np.abs(raster - magnified(d, RASTER, channel)).max(axis=2)) > 60
         assert cell.mean() > 0.02, "there are no numbers in the pixels"
-    d.press(ALT | Key._1)
-    d.settle()
     # From 48 units a side on, each has its row and column too.
-    d.change(images={"magnification": 64.0})
-    d.settle()
-    large = d.images()[0]
+    large = raster
     d.change(one_based=False)
     d.settle()
     assert np.abs(without_overlays(d.images()[0] - large)).max() > 60

@@ -25,10 +25,6 @@ def _open(d):
 def drive_the_box_saves_the_figure_that_it_shows(d):
     d.change(marked=(60, 90), outside={"bundle": (2, 2)})
     d.settle()
-    _open(d)
-    d.press(Key.escape)
-    d.frames(2)
-    assert d.window.box is None
     box = _open(d)
     box.choice = replace(box.choice, size=(400, 300), ground="transparent")
     d.frames(2)
