@@ -37,15 +37,18 @@ def axe_script() -> str:
 
 
 class Page:
-    """An open page. problems: errors, console messages, and requests that left."""
+    """An open page. at: the end of its address.
 
-    def __init__(self, browser: Any, file: Path, **settings: Any) -> None:
+    problems: errors, console messages, and requests that left.
+    """
+
+    def __init__(self, browser: Any, file: Path, at: str = "", **settings: Any) -> None:
         self.problems: list[str] = []
         self.tab = browser.new_page(**settings)
         self.tab.on("console", self._hear)
         self.tab.on("pageerror", lambda error: self.problems.append(str(error)))
         self.tab.on("request", lambda request: self._note(request.url))
-        self.tab.goto(file.as_uri())
+        self.tab.goto(file.as_uri() + at)
 
     def _hear(self, message: Any) -> None:
         if "GL Driver Message" not in message.text:  # software WebGL is slow, and says so

@@ -28,9 +28,9 @@ widget.render({ model, el: document.getElementById("place") });
 </script>"""
 
 
-@pytest.fixture
-def page(browser, monkeypatch):
-    """A page that shows a widget; page.widget is that."""
+@pytest.fixture(scope="module")
+def shared(browser):
+    """A page that shows a widget; shared.widget is that."""
     widget = explore("spheres", size=SIZE)
     folder = Path(explore.__code__.co_filename).parent
     parts = {"css": (folder / "explore.css").read_text("utf-8"), "size": json.dumps(SIZE)}
@@ -50,15 +50,22 @@ def page(browser, monkeypatch):
         widget.comm.handle_msg({"content": {"data": data}, "buffers": []})
         return answers
 
-    monkeypatch.setattr(widget, "send", send)
+    widget.send = send
     page.expose_function("say", say)
     page.widget, page.errors, page.is_busy, page.unanswered = widget, [], False, 0
     page.on("pageerror", lambda error: page.errors.append(error))
     page.set_content(PAGE % parts)
     page.locator(FULL).wait_for()
     yield page
-    assert not page.errors
     page.close()
+
+
+@pytest.fixture
+def page(shared):
+    """The page with the widget's first camera."""
+    shared.locator("canvas").press("Home")
+    yield shared
+    assert not shared.errors
 
 
 def shown(page):
