@@ -59,8 +59,8 @@ def uses(module, tree):
     imported modules."""
     package = MODULES[module].name == "__init__.py"
     above = module.split(".") if package else module.split(".")[:-1]
-    named = {}
-    for node in ast.walk(tree):
+    named, nodes = {}, [*ast.walk(tree)]
+    for node in nodes:
         if isinstance(node, ast.ImportFrom):
             start = above[: len(above) - node.level + 1] if node.level else []
             home = ".".join([*start, *([node.module] if node.module else [])])
@@ -71,7 +71,7 @@ def uses(module, tree):
             for alias in node.names:
                 first = alias.name.split(".")[0]
                 named[alias.asname or first] = alias.name if alias.asname else first
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
             yield module, node.id
         elif isinstance(node, ast.Attribute) and (names := dotted(node)):

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import MOST, diagnosis
-from lucida.app.checking.mistakes.program import Mistakes
+from lucida.app.checking.mistakes.program import Mistakes, Program
 from lucida.app.checking.mistakes.programs import case_values, known_values, program_of
 from lucida.app.checking.mistakes.rays import ray_task, run_rays
 from lucida.app.checking.mistakes.trials import candidates, trials_of
@@ -45,11 +45,15 @@ def ray_task_of(projection: str = "perspective", **conventions: Any) -> CheckTas
     return replace(task, conventions=replace(task.conventions, **conventions))
 
 
-def rays_with(task: CheckTask, cases: list[CheckCase], mistakes: Mistakes) -> NDArray[np.float64]:
-    """Return the rays of a task's program with mistakes, (N, 2, 3)."""
+def known_in(task: CheckTask, cases: list[CheckCase]) -> dict[str, NDArray[np.float64]]:
+    """Return the values that the lines of a task's program use, of all cases at once."""
     made = [case_values(case, *case.pixel, ray_task(task)) for case in cases]
-    known = {name: np.array([np.atleast_1d(one[name]) for one in made], float) for name in made[0]}
-    return np.stack(run_rays(program_of(task), known, mistakes), axis=1)
+    return {name: np.array([np.atleast_1d(one[name]) for one in made], float) for name in made[0]}
+
+
+def rays_with(program: Program, known: Any, mistakes: Mistakes) -> NDArray[np.float64]:
+    """Return the rays of a program with mistakes, (N, 2, 3)."""
+    return np.stack(run_rays(program, known, mistakes), axis=1)
 
 
 def right_rays(cases: list[CheckCase]) -> NDArray[np.float64]:
@@ -77,7 +81,8 @@ def test_each_mistake_in_rays_is_named(name):
     task = ray_task_of(**RAY_TASKS[name])
     program, cases = program_of(task), made_cases(2, 4, task.projection)
     right, named, unseen = right_rays(cases), 0, 0
-    all_rays = {one: rays_with(task, cases, (one,)) for one in program.mistakes}
+    known = known_in(task, cases)
+    all_rays = {one: rays_with(program, known, (one,)) for one in program.mistakes}
     share = list(program.mistakes)[list(RAY_TASKS).index(name) % SHARES :: SHARES]
     for mistake in share:
         rays = all_rays[mistake]
@@ -102,18 +107,19 @@ def test_two_mistakes_at_once_are_named(projection):
     """Some pairs, of eight cameras together: by their names, or by those of what is the same."""
     task = ray_task_of(projection)
     program, cases = program_of(task), made_cases(2, 8, projection)
-    right, pairs, exactly = right_rays(cases), list(program.pairs()), 0
+    known, right = known_in(task, cases), right_rays(cases)
+    pairs, exactly = list(program.pairs()), 0
     assert len(pairs) > 200
     chosen = np.random.default_rng(5).choice(len(pairs), 4, replace=False)
     for pair in (pairs[number] for number in chosen):
-        rays = rays_with(task, cases, pair)
+        rays = rays_with(program, known, pair)
         if same(rays, right):
             continue
         found = candidates(program, trials_of(task, cases, rays))
         assert found, [mistake.name for mistake in pair]
         exactly += pair in found
         for others in found:
-            assert same(rays, rays_with(task, cases, others)), (pair, others)
+            assert same(rays, rays_with(program, known, others)), (pair, others)
     assert exactly >= 3
 
 
