@@ -46,13 +46,21 @@ def definitions(tree):
                     yield part.id, node
 
 
+def dotted(node):
+    """Return the names of an expression like a.b.c; () for another one."""
+    if isinstance(node, ast.Name):
+        return (node.id,)
+    names = dotted(node.value) if isinstance(node, ast.Attribute) else ()
+    return (*names, node.attr) if names else ()
+
+
 def uses(module, tree):
     """(module, name) of what a module reads: its own names, imported ones, and attributes of
     imported modules."""
     package = MODULES[module].name == "__init__.py"
     above = module.split(".") if package else module.split(".")[:-1]
-    named = {}
-    for node in ast.walk(tree):
+    named, nodes = {}, [*ast.walk(tree)]
+    for node in nodes:
         if isinstance(node, ast.ImportFrom):
             start = above[: len(above) - node.level + 1] if node.level else []
             home = ".".join([*start, *([node.module] if node.module else [])])
@@ -63,11 +71,11 @@ def uses(module, tree):
             for alias in node.names:
                 first = alias.name.split(".")[0]
                 named[alias.asname or first] = alias.name if alias.asname else first
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Load):
             yield module, node.id
-        elif isinstance(node, ast.Attribute):
-            first, *rest = ast.unparse(node).split(".")
+        elif isinstance(node, ast.Attribute) and (names := dotted(node)):
+            first, *rest = names
             parts = [*named.get(first, first).split("."), *rest]
             for end in range(1, len(parts)):
                 yield ".".join(parts[:end]), parts[end]

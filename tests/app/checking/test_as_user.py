@@ -36,11 +36,19 @@ def basis(eye, target, up):
     return u, cross(w, u), w
 """
 USER = f"lucida-test-{os.getpid()}"
-CHEATS = {
-    "writes the results": "open(ROOT + '/results/results.json', 'w').write('999')",
-    "reads the tasks": "open(ROOT + '/source/hw2.toml').read()",
-    "ends the check": "os.kill(os.getppid(), 9)",
-}
+CHEATS = """
+def denied(cheat):
+    try:
+        cheat()
+    except PermissionError:
+        return True
+cheats = (
+    lambda: open(ROOT + '/results/results.json', 'w').write('999'),
+    lambda: open(ROOT + '/source/hw2.toml').read(),
+    lambda: os.kill(os.getppid(), 9),
+)
+raise RuntimeError(f"denied: {[*map(denied, cheats)]}")
+"""
 DAEMON = """
 if not os.fork():
     os.setsid()
@@ -94,10 +102,9 @@ def submitted(root: Path, source: str) -> dict:
 def test_an_honest_submission_and_cheats(root: Path) -> None:
     user = f"assert os.getuid() == {pwd.getpwnam(USER).pw_uid} and not os.getgroups()\n"
     assert submitted(root, user + RIGHT)["score"] == 2
-    for cheat in CHEATS.values():
-        found = submitted(root, f"{cheat}\n{RIGHT}")
-        assert found["score"] == 0
-        assert "PermissionError" in found["output"]
+    found = submitted(root, CHEATS + RIGHT)
+    assert found["score"] == 0
+    assert "denied: [True, True, True]" in found["output"]
 
 
 def test_a_daemon_of_two_forks_ends_with_the_check(root: Path) -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.mistakes.diagnosis import MOST, diagnosis
-from lucida.app.checking.mistakes.program import Mistakes
+from lucida.app.checking.mistakes.program import Mistakes, Program
 from lucida.app.checking.mistakes.programs import case_values, known_values, program_of
 from lucida.app.checking.mistakes.rays import ray_task, run_rays
 from lucida.app.checking.mistakes.trials import candidates, trials_of
@@ -33,7 +33,7 @@ RAY_TASKS = {
 }  # fmt: skip
 TASKS = {task.name: task for task in BUILTIN}
 VALUES = [task for task in BUILTIN if task.kind != "viewing-ray" and "parallel" not in task.name]
-SHARES = 2  # of the mistakes in rays, each of which takes a search through all others
+SHARES = 4  # of the mistakes in rays, each of which takes a search through all others
 LOOPS = 30  # mistakes in the lines of both loops; the others are those of rays
 
 
@@ -45,11 +45,15 @@ def ray_task_of(projection: str = "perspective", **conventions: Any) -> CheckTas
     return replace(task, conventions=replace(task.conventions, **conventions))
 
 
-def rays_with(task: CheckTask, cases: list[CheckCase], mistakes: Mistakes) -> NDArray[np.float64]:
-    """Return the rays of a task's program with mistakes, (N, 2, 3)."""
+def known_in(task: CheckTask, cases: list[CheckCase]) -> dict[str, NDArray[np.float64]]:
+    """Return the values that the lines of a task's program use, of all cases at once."""
     made = [case_values(case, *case.pixel, ray_task(task)) for case in cases]
-    known = {name: np.array([np.atleast_1d(one[name]) for one in made], float) for name in made[0]}
-    return np.stack(run_rays(program_of(task), known, mistakes), axis=1)
+    return {name: np.array([np.atleast_1d(one[name]) for one in made], float) for name in made[0]}
+
+
+def rays_with(program: Program, known: Any, mistakes: Mistakes) -> NDArray[np.float64]:
+    """Return the rays of a program with mistakes, (N, 2, 3)."""
+    return np.stack(run_rays(program, known, mistakes), axis=1)
 
 
 def right_rays(cases: list[CheckCase]) -> NDArray[np.float64]:
@@ -77,7 +81,8 @@ def test_each_mistake_in_rays_is_named(name):
     task = ray_task_of(**RAY_TASKS[name])
     program, cases = program_of(task), made_cases(2, 4, task.projection)
     right, named, unseen = right_rays(cases), 0, 0
-    all_rays = {one: rays_with(task, cases, (one,)) for one in program.mistakes}
+    known = known_in(task, cases)
+    all_rays = {one: rays_with(program, known, (one,)) for one in program.mistakes}
     share = list(program.mistakes)[list(RAY_TASKS).index(name) % SHARES :: SHARES]
     for mistake in share:
         rays = all_rays[mistake]
@@ -102,28 +107,29 @@ def test_two_mistakes_at_once_are_named(projection):
     """Some pairs, of eight cameras together: by their names, or by those of what is the same."""
     task = ray_task_of(projection)
     program, cases = program_of(task), made_cases(2, 8, projection)
-    right, pairs, exactly = right_rays(cases), list(program.pairs()), 0
+    known, right = known_in(task, cases), right_rays(cases)
+    pairs, exactly = list(program.pairs()), 0
     assert len(pairs) > 200
-    chosen = np.random.default_rng(5).choice(len(pairs), 8, replace=False)
+    chosen = np.random.default_rng(5).choice(len(pairs), 4, replace=False)
     for pair in (pairs[number] for number in chosen):
-        rays = rays_with(task, cases, pair)
+        rays = rays_with(program, known, pair)
         if same(rays, right):
             continue
         found = candidates(program, trials_of(task, cases, rays))
         assert found, [mistake.name for mistake in pair]
         exactly += pair in found
         for others in found:
-            assert same(rays, rays_with(task, cases, others)), (pair, others)
-    assert exactly >= 6
+            assert same(rays, rays_with(program, known, others)), (pair, others)
+    assert exactly >= 3
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_right_answers_of_1_000_cameras_have_no_name(projection):
+def test_right_answers_of_400_cameras_have_no_name(projection):
     """A pixel of each, computed in float32: even if they were handed over as wrong."""
     random = np.random.default_rng(7)
     task = ray_task_of(projection)
     program, cases = program_of(task), []
-    for number in range(1_000):
+    for number in range(400):
         camera = made_camera(random, CAMERAS[number % len(CAMERAS)], projection)
         width, height = random.integers(2, 2000, 2).tolist()
         pixel = (int(random.integers(height)), int(random.integers(width)))
@@ -132,8 +138,8 @@ def test_right_answers_of_1_000_cameras_have_no_name(projection):
     given = right_rays(cases)
     given[:, 1] *= length[:, None]
     given = given.astype(np.float32).astype(float)
-    for first in range(0, len(cases), 250):
-        part = slice(first, first + 250)
+    for first in range(0, len(cases), 200):
+        part = slice(first, first + 200)
         assert candidates(program, trials_of(task, cases[part], given[part])) == ()
 
 

@@ -244,9 +244,13 @@ def test_right_programs_are_right(name: str) -> None:
 
 @pytest.mark.parametrize("name", WRONG_RAYS)
 def test_wrong_rays(wrong: FileStudent, name: str) -> None:
+    """In both projections, or, where both have the same phrase, in one or the other."""
     _, *says, known = WRONG_RAYS[name]
-    tasks = [replace(TASKS[task], function=named("viewing_ray", name)) for task in RAYS]
-    for result, phrase in zip(check(wrong, tasks), says, strict=True):
+    asked = [replace(TASKS[task], function=named("viewing_ray", name)) for task in RAYS]
+    if says[0] == says[1]:
+        one = list(WRONG_RAYS).index(name) % 2
+        asked, says = asked[one : one + 1], says[one : one + 1]
+    for result, phrase in zip(check(wrong, asked), says, strict=True):
         if phrase:
             assert_found(result, phrase, known)
         else:

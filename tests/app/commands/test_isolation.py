@@ -22,6 +22,12 @@ PIL yaml glfw imgui_bundle moderngl msgspec platformdirs sitecustomize usercusto
 scipy networkx lxml site encodings/__init__ encodings/utf_8"""
 MISSING = "bvh16._collapse"  # of the kernels, in the cache of whoever stands there
 TRIANGLE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
+LECTURE = """title = "T"
+[[steps]]
+title = "A"
+text = "$x$"
+scene = "canonical"
+"""
 SCENE = '[[objects]]\ntype = "model"\nfile = "models/large.obj"\n'
 
 
@@ -38,6 +44,7 @@ class Here:
                 trap.write_text(f"open({str(self.ran)!r}, 'a').write({name!r} + '\\n')\n")
         (self.folder / "models" / "large.obj").write_bytes(TRIANGLE + b"#" * (1 << 20))
         (self.folder / "scene.toml").write_text(SCENE)
+        (self.folder / "lecture.toml").write_text(LECTURE)
         for name in ("home", "cache", "config"):
             (folder / name).mkdir()
         strange = ("PYTHON", "NUMBA_", "DISPLAY", "WAYLAND_DISPLAY")
@@ -95,15 +102,24 @@ def test_the_traps_work(tmp_path):
     "line",
     [
         "render scene.toml -o ray.png --renderer ray --size 32x32",
-        "render models/large.obj -o raster.png --size 32x32",
-        "compare spheres --size 32x32",
-        "scene",
-        "lecture --check",
         "models/large.obj --screenshot window.png --size 640x480",
     ],
 )
 def test_commands_import_nothing_from_the_current_folder(here, line):
     here.run("-m", "lucida", *line.split())
+
+
+def test_commands_in_one_process_import_nothing_from_the_current_folder(here):
+    lines = (
+        "render models/large.obj -o raster.png --size 32x32",
+        "compare spheres --size 32x32",
+        "scene",
+        "lecture lecture.toml --check",
+    )
+    run = "import sys; from lucida.app.cli import main; " + " ".join(
+        f"sys.exit(1) if main({line.split()!r}) else None;" for line in lines
+    )
+    assert "1 step" in here.run("-c", run)
 
 
 def test_python_m_lucida_leaves_the_current_folder_at_once(here, tmp_path):

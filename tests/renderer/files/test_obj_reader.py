@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lucida.renderer.files.models import polygons, texts
@@ -128,7 +128,6 @@ def test_random_files_are_read_as_a_plain_reader_does(
         assert repr([of_part(part) for part in parts]) == repr([*plainly_read(text).values()])
 
 
-@settings(max_examples=60, deadline=None)
 @given(
     st.lists(
         st.one_of(

@@ -61,7 +61,7 @@ def still_life():
     )
 
 
-def agrees(rasterizer, scene, camera, size=SIZE):
+def agrees(rasterizer, scene, camera, size=(32, 24)):
     """Draws, and compares with float64: no pixel may differ without a line of the image near it.
     Returns the frame."""
     rasterizer.set_scene(scene)

@@ -104,7 +104,7 @@ def test_normals_that_disagree_with_the_winding_are_turned(rasterizer):
 
 def test_near_opens_a_sphere_and_shows_its_inside(rasterizer):
     scene = Scene((SceneObject(Sphere((0, 0, -3), 1.0)),))
-    frame = agrees(rasterizer, scene, replace(WIDE, near=3.0))
+    frame = agrees(rasterizer, scene, replace(WIDE, near=3.0), SIZE)
     assert frame.depth[18, 24] == pytest.approx(4, rel=1e-2)
     assert frame.normal[18, 24, 2] == pytest.approx(1, abs=1e-2)
 

@@ -60,7 +60,7 @@ def test_fine_checkers_through_a_telephoto_lens(rasterizer):
     scene = Scene(tuple(SceneObject(shape, fine) for shape in shapes))
     camera = Camera.look_at((60, 120, 268), (0, 0, 0), fov_y_deg=0.6)
     line = replace(camera, viewport=(-0.5, 0.5, -0.001, 0.001))
-    agrees(rasterizer, scene, line, (3000, 4))
+    agrees(rasterizer, scene, line, (3000, 1))
 
 
 def test_small_things_close_by_on_a_vast_plain(rasterizer):
@@ -86,4 +86,4 @@ def test_tiny_and_huge_worlds(rasterizer):
             )
         )
         frame = agrees(rasterizer, scene, Camera())
-        assert frame.depth[18, 24] == pytest.approx(3 * scale, rel=1e-2)
+        assert frame.depth[12, 16] == pytest.approx(3 * scale, rel=1e-2)

@@ -29,7 +29,7 @@ TASKS = {
 }
 CAMERAS = 20
 RAYS = 80
-SHARES = 3  # of the mistakes, each of which takes a search through all others
+SHARES = 5  # of the mistakes, each of which takes a search through all others
 
 SYMMETRIC = {"as far to the left as to the right", "the viewport's middle at 0"}
 SQUARE_PIXELS = {"rows as far apart as columns", "columns as far apart as rows"}
