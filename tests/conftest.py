@@ -8,6 +8,8 @@ otherwise tests run on the first that works.
 import os
 import subprocess
 import sys
+from contextlib import nullcontext
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
@@ -30,8 +32,9 @@ settings.load_profile("lucida")
 
 def pytest_sessionstart(session):
     """Compile the tracer into the cache: or the first test that traces would wait for it, and hear
-    of it. Before several processes run all tests, all of it, and all tests' modules: or each would
-    compile the same. Not where a few tests run on their own, for another processor."""
+    of it. Before several processes run all tests, all of it, and all tests' modules, unless they
+    have bytecode: or each would compile the same. Not where a few tests run on their own, for
+    another processor."""
     if hasattr(session.config, "workerinput") or session.config.option.collectonly:
         return
     if "NUMBA_CPU_NAME" in os.environ:
@@ -39,8 +42,13 @@ def pytest_sessionstart(session):
     is_whole = session.config.args_source is pytest.Config.ArgsSource.TESTPATHS
     if is_whole and session.config.getoption("numprocesses", None):
         of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
-        collect = [sys.executable, "-m", "pytest", "--collect-only", "-q"]
-        with subprocess.Popen(collect, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL):
+        collecting = nullcontext()
+        if not any(Path(__file__).parent.glob("renderer/trace/__pycache__/test_*")):
+            collect = [sys.executable, "-m", "pytest", "--collect-only", "-q"]
+            collecting = subprocess.Popen(
+                collect, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+            )
+        with collecting:
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
     scene = load_scene(BUILTIN_SCENES[0])
     for shadows in (False, True):

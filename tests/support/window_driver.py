@@ -154,6 +154,10 @@ class Driver:
         """Change options of the state, as with_options() does."""
         self.window.change(with_options(self.state, **options))
 
+    def show_small(self) -> None:
+        """Show small images, pixel by pixel, to whom their size does not matter."""
+        self.change(images={"resolution": (120, 90), "magnification": 1.0})
+
     def undo(self) -> None:
         self.window.undo()
 

@@ -25,6 +25,7 @@ from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.scene import View
 from lucida.renderer.system.errors import LucidaError
 
+SPHERES = load_scene("spheres")
 ARRANGEMENT = Arrangement(
     "Compare",
     ("Camera", "Raster"),
@@ -67,7 +68,7 @@ def test_a_lens_comes_back_and_a_damaged_one_is_refused(state):
 )
 def test_numbers_are_kept_exactly(eye, distance):
     view = View(Camera(eye, distance=distance))
-    state = AppState.for_scene(load_scene("spheres"), view)
+    state = AppState.for_scene(SPHERES, view)
     state = with_options(state, bookmarks=(Bookmark(5, view),))
     session = from_bytes(to_bytes(session_of(state, Arrangement())))
     assert (session.view, session.options.bookmarks[0].view) == (view, view)

@@ -52,6 +52,7 @@ def drive_a_number_that_is_not_legal_moves_nothing(d):
 
 
 def drive_a_singular_basis_is_told_and_survived(d):
+    d.show_small()
     d.press(Key.o)
     assert not d.state.keep_orthonormal
     d.settle()

@@ -38,6 +38,7 @@ def drive_all_of_the_main_part_is_seen_without_scrolling(d):
 
 
 def drive_the_field_of_view_is_typed(d):
+    d.show_small()
     before = d.agreeing_images()
     was = d.state.camera
     d.type("field of view", "35")
@@ -62,6 +63,7 @@ def drive_a_step_shows_parts_of_the_panel(d):
 def drive_near_and_far_are_switched_on_and_cut(d):
     close_sections(d)
     open_section(d, "More")
+    d.show_small()
     before = d.agreeing_images()
     assert (d.state.camera.near, d.state.camera.far) == (None, None)
     d.click("//Camera/near")
@@ -93,6 +95,7 @@ def drive_a_number_is_reset(d):
 
 
 def drive_presets_frame_the_scene_in_both_images(d):
+    d.show_small()
     for name in ("Left", "Cabinet"):
         d.menu(f"Camera/Presets/{name}")
         d.agreeing_images()

@@ -10,16 +10,18 @@ CTRL = Key.mod_ctrl
 
 
 def drive_undo_and_redo(d):
+    d.show_small()
+    start = d.state
     d.drag_field("eye.x", 40)
     moved = d.state
     d.drag(d.point(RAY, 0.5, 0.5), d.point(RAY, 0.6, 0.5))
     turned = d.state
-    assert d.steps == 2
+    assert d.steps == 3
     shift = Key.mod_shift
     d.press(CTRL | Key.z)
     assert d.state == moved
     d.press(CTRL | Key.z)
-    assert d.state == d.start
+    assert d.state == start
     d.press(CTRL | shift | Key.z)
     assert d.state == moved
     d.press(CTRL | Key.y)
@@ -53,6 +55,7 @@ def drive_keys_and_menus(d):
 
 
 def drive_shadows_and_mirrors_are_the_ray_images_alone(d):
+    d.show_small()
     raster, ray = d.agreeing_images()
     d.menu("Image/Shadows (ray image only)")
     d.settle()

@@ -22,6 +22,8 @@ def drive_the_mouse_turns_moves_and_zooms(d):
     after = d.agreeing_images()
     assert min(changed(a, b) for a, b in zip(before, after, strict=True)) > 0.1
     for name, button, key in ((RASTER, 1, 0), (RAY, 2, 0), (RASTER, 0, Key.mod_shift)):
+        d.window.change(d.start)
+        d.settle()
         was = window.state.camera
         pixel = (window.renderers.size[1] // 2, window.renderers.size[0] // 2)
         parameter = window.renderers.depth_at(window.state, pixel)

@@ -111,6 +111,7 @@ def drive_it_is_drawn_anew_in_another_look(d):
 def drive_handles_move_the_eye_and_turn_the_basis(d):
     """While a handle is dragged, only our own colours are shown, none of ImGuizmo's."""
     enter(d)
+    d.show_small()
     window = d.window
     start = window.state.camera
     press(d, "Handles: move eye")
@@ -158,7 +159,7 @@ def drive_handles_move_the_eye_and_turn_the_basis(d):
     press(d, "Handles: turn basis")
     d.frames(2)
     x, y = place(d, np.asarray(start.eye))
-    for angle in np.linspace(0.0, 2 * np.pi, 16, endpoint=False):
+    for angle in np.linspace(0.25, 2.25, 16, endpoint=False) * np.pi:
         turned = _turn_by(d, np.array([x, y]), angle)
         if turned:
             break
@@ -199,7 +200,7 @@ def _turn_by(d, middle, angle):
     """Drags the ring of handles at an angle; whether there was one."""
     before = d.state.camera
     radius = 0.5 * LENGTH * scope(d).extent.x
-    for part in (0.7, 0.85, 1.0, 1.1):
+    for part in (0.85, 0.7, 1.0, 1.1):
         grip = middle + part * radius * np.array([np.cos(angle), np.sin(angle)])
         d.move_to(tuple(grip))
         if not im_guizmo.is_over():

@@ -25,7 +25,7 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
     live = window.renderers.live
     for view, mode in ((RAY, ""), (COMPARE, "wipe")):
         d.layout(COMPARE if mode else "Side by side")
-        window.change(with_options(d.start, images={"channel": "depth"}))
+        window.change(with_options(d.start, images={"channel": "depth", "resolution": (120, 90)}))
         if mode:
             options = {"mode": mode, "divider": 0.1}
             d.change(compare=options)
