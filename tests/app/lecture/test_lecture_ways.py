@@ -32,7 +32,7 @@ def test_a_steps_state_does_not_depend_on_the_way(number):
     step = LECTURE.steps[number]
     begun = AppState.for_scene(load_scene("spheres"))
     own = state_of(step, begun)
-    for before in LECTURE.steps:
+    for before in LECTURE.steps[number % 4 :: 4]:
         came = state_of(before, begun)
         assert state_of(step, came) == own
         assert state_of(step, spoiled(came)) == own
