@@ -50,19 +50,19 @@ def test_a_command_is_taken(line):
     parser.parse_args(words if command is view else words[1:])
 
 
-def test_the_view_file():
+def test_the_documents_view_file_is_read():
     shown = view_from_toml(next(b for b in blocks("files.md") if b.startswith("[camera]")))
     assert shown.camera.far == 100.0
 
 
-def test_the_scene_file(tmp_path):
+def test_the_documents_scene_file_is_read(tmp_path):
     (tmp_path / "bunny.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     saved(tmp_path, "tiles.png", slopes(2, 2))
     scene = scene_from_toml(blocks("files.md")[0], tmp_path)
     assert len(scene.objects) == 2
 
 
-def test_python(tmp_path, monkeypatch, capsys, gl_backend):
+def test_the_documents_python_runs(tmp_path, monkeypatch, capsys, gl_backend):
     if gl_backend != "egl":
         pytest.skip("once is enough")
     monkeypatch.chdir(tmp_path)

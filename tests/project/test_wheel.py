@@ -108,7 +108,7 @@ def test_the_sdist_builds_it_and_has_no_tests(built):
     assert not {name for name in names if name.startswith((".ci", ".github", "tests"))}
 
 
-def test_one_version(wheel):
+def test_package_wheel_and_changelog_have_one_version(wheel):
     project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
     assert "version" not in project["project"]
     assert wheel.name.startswith(f"camera_lucida-{__version__}-")
@@ -129,7 +129,7 @@ def test_the_packages_come_from_the_installation(installed, environment, tmp_pat
     assert str(ROOT) not in end.stdout.split()
 
 
-def test_it_draws(installed, environment, tmp_path, gl_backend):
+def test_the_installed_wheel_draws(installed, environment, tmp_path, gl_backend):
     """Its tracer needs no test: its files are those that are tested here."""
     options = ("--renderer", "raster", "--backend", gl_backend)
     command = ("render", "still-life", "-o", "a.npy", "--size", "64x36", *options)

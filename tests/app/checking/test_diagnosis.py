@@ -212,7 +212,7 @@ def transposed(o, d, case):
     return case.camera.ray(*case.pixel[::-1], case.size)
 
 
-def test_one_mistake():
+def test_one_mistake_is_named_with_its_line_and_the_right_one():
     found = diagnosed(upside_down)
     assert names(found) == [{"rows count upwards"}]
     assert found.sentences == (

@@ -55,7 +55,7 @@ def test_the_right_program_is_the_camera_s(projection, indexing):
         assert (direction == right.direction).all()
 
 
-def test_the_table():
+def test_mistakes_have_one_name_each_and_change_a_line_of_their_program():
     """Names are unique, lines exist and are wrong, parts are the lecture's; shown lines are run."""
     file = Path(lucida.app.lecture.lectures.__file__).parent / "images-rays-cameras.toml"
     titles = {step["title"] for step in tomllib.loads(file.read_text("utf-8"))["steps"]}
@@ -104,7 +104,7 @@ def ray(name):
 
 
 @pytest.mark.parametrize("name", PERSPECTIVE)
-def test_rays_by_hand(name):
+def test_a_mistake_s_rays_are_those_computed_by_hand(name):
     assert ray(name) == pytest.approx(np.array(PERSPECTIVE[name])), name
 
 

@@ -243,7 +243,7 @@ def test_right_programs_are_right(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", WRONG_RAYS)
-def test_wrong_rays(wrong: FileStudent, name: str) -> None:
+def test_wrong_rays_are_found_and_their_mistake_named(wrong: FileStudent, name: str) -> None:
     """In both projections, or, where both have the same phrase, in one or the other."""
     _, *says, known = WRONG_RAYS[name]
     asked = [replace(TASKS[task], function=named("viewing_ray", name)) for task in RAYS]
@@ -258,14 +258,14 @@ def test_wrong_rays(wrong: FileStudent, name: str) -> None:
 
 
 @pytest.mark.parametrize("number", range(len(WRONG_VALUES)))
-def test_wrong_values(wrong: FileStudent, number: int) -> None:
+def test_wrong_values_are_found_and_their_mistake_named(wrong: FileStudent, number: int) -> None:
     task, _, _, says = WRONG_VALUES[number]
     (result,) = check(wrong, [replace(TASKS[task], function=named(TASKS[task].function, number))])
     assert_found(result, says, True)
 
 
 @pytest.mark.parametrize("name", WRONG_PROGRAMS)
-def test_wrong_programs(tmp_path: Path, name: str) -> None:
+def test_wrong_programs_are_judged_task_by_task(tmp_path: Path, name: str) -> None:
     right, edits, expected = WRONG_PROGRAMS[name]
     path = tmp_path / "student.py"
     path.write_text(edited(STUDENTS[right].read_text("utf-8"), edits), "utf-8")

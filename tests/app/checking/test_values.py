@@ -61,20 +61,20 @@ def test_nothing_that_json_has_is_too_strange(value):
     "value", [None, False, math.inf, math.nan, [], [None], [False, 0.0], [False, None],
               {"t": None}, [None, math.inf]]
 )  # fmt: skip
-def test_misses(value):
+def test_no_hit_is_read_in_every_form(value):
     assert parameter(value) == math.inf
 
 
 @pytest.mark.parametrize("value", [2, 2.0, [2.0], [[2]], [True, 2.0], {"t": 2}])
-def test_hits(value):
+def test_a_hit_is_read_in_every_form(value):
     assert parameter(value) == 2.0
 
 
 @pytest.mark.parametrize("value", [True, "2", [1, 2, 3], {"x": 1}, [True, "2"]])
-def test_neither(value):
+def test_what_is_neither_hit_nor_miss_is_refused(value):
     assert parameter(value) is None
 
 
-def test_values_in_messages():
+def test_values_are_short_in_messages():
     told = values.text_of({"a": [1, -0.0, 0.1 + 0.2], "b": None, "c": True, "d": "x"})
     assert told == "{a: (1, 0, 0.3), b: None, c: True, d: 'x'}"

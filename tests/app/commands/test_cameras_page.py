@@ -102,7 +102,7 @@ def test_the_commands_run_one_after_the_other(capsys, gl_backend):
     assert np.allclose(K, [[525, 0, 319], [0, 525, 239], [0, 0, 1]], rtol=0, atol=1e-9)
 
 
-def test_python_runs():
+def test_the_page_s_python_runs_and_comes_back_to_the_same_camera():
     block = re.search(r"## From Python\n\n((?:    .*\n|\n)+)", PAGE)
     names: dict = {}
     exec(re.sub("^    ", "", block[1], flags=re.MULTILINE), names)

@@ -46,7 +46,7 @@ def run_python(*arguments: str, **options) -> subprocess.CompletedProcess:
 
 class TestHelp:
     @pytest.mark.parametrize("arguments", [[], *[[name] for name in NAMES]])
-    def test_it_is_printed(self, capsys, arguments):
+    def test_help_is_printed_with_an_example(self, capsys, arguments):
         assert main([*arguments, "--help"]) == 0
         told = capsys.readouterr()
         assert not told.err
@@ -58,7 +58,7 @@ class TestHelp:
         told = capsys.readouterr().out
         assert all(f"lucida {name} " in told for name in NAMES)
 
-    def test_version(self, capsys):
+    def test_version_prints_the_package_s(self, capsys):
         assert main(["--version"]) == 0
         assert capsys.readouterr().out == f"lucida {__version__}\n"
 
@@ -97,7 +97,7 @@ class TestWindow:
             ("--size 640x480 render", "render"),
         ],
     )
-    def test_which_scene(self, monkeypatch, line, scene):
+    def test_a_line_without_a_command_opens_its_scene(self, monkeypatch, line, scene):
         seen = []
         monkeypatch.setattr(view, "run", lambda arguments: seen.append(arguments.scene) or 0)
         assert main(line.split()) == 0
@@ -158,13 +158,13 @@ class TestMistakes:
             ),
         ],
     )
-    def test_mistake(self, capsys, in_an_empty_folder, line, told):
+    def test_each_mistake_is_told_in_one_line(self, capsys, in_an_empty_folder, line, told):
         (in_an_empty_folder / "flat.toml").write_text(VIEW.format(w="[0.0, 0.0, 0.0]"))
         (in_an_empty_folder / "broken.toml").write_text("[camera\n")
         assert re.search(told, refused(capsys, *line.split()))
 
     @pytest.mark.parametrize("name", NAMES)
-    def test_a_misspelt_command(self, capsys, in_an_empty_folder, name):
+    def test_a_misspelt_command_names_the_one_that_is_meant(self, capsys, in_an_empty_folder, name):
         misspelt = {name[:-1], name[0] + name[2:], name[:-2] + name[-1] + name[-2], name.upper()}
         for word in misspelt - set(NAMES):
             told = refused(capsys, word, "x.obj", "-o", "a b.png")
@@ -212,7 +212,7 @@ def test_numbers_at_their_bounds_are_taken_and_others_are_not():
 
 
 class TestEnds:
-    def test_interrupted(self, capsys, monkeypatch):
+    def test_an_interrupted_command_says_so_and_ends_with_130(self, capsys, monkeypatch):
         def interrupt(arguments):
             raise KeyboardInterrupt
 

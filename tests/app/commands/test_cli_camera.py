@@ -134,7 +134,7 @@ LENS = "brown, k1 = -0.2"
 
 
 class TestDistortion:
-    def test_it_is_listed(self, capsys):
+    def test_a_lens_is_listed_with_its_numbers(self, capsys):
         listed = facts(capsys, "lens.json")
         assert listed["cameras"] == "2: a, images/b.jpg"
         assert listed["lens"] == facts(capsys, "lens.json#0")["lens"] == LENS

@@ -168,7 +168,7 @@ def test_a_starter_is_never_written_over_another_file(check, tmp_path):
     assert (tmp_path / "all.py").read_text("utf-8").count("\ndef ") == 6
 
 
-def test_a_program(check, tmp_path):
+def test_a_program_is_checked_on_the_task_that_is_named(check, tmp_path):
     program = tmp_path / "answers.py"
     program.write_text(
         f"import json, sys\n{RIGHT}\n"

@@ -127,7 +127,7 @@ class TestRender:
 
 
 class TestCompare:
-    def test_json_is_stable(self, capsys, gl_backend):
+    def test_json_has_counts_that_add_up(self, capsys, gl_backend):
         arguments = ["compare", "spheres", "--size", "96x54", "--backend", gl_backend]
         assert main([*arguments, "--json", "-o", "difference.png"]) == 0
         told = capsys.readouterr()

@@ -91,7 +91,7 @@ def here(tmp_path_factory):
     return made
 
 
-def test_the_traps_work(tmp_path):
+def test_a_trap_that_is_imported_is_noticed(tmp_path):
     trapped = Here(tmp_path)
     with pytest.raises(AssertionError, match=r"imported.*'json'"):
         trapped.run("-c", "import json", safe=False)

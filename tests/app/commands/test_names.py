@@ -47,7 +47,9 @@ def test_scene_files_sessions_and_undo(scene_file: str, name: str) -> None:
     assert tuple(one.name for one in load_scene("copy.toml").objects) == NAMES
 
 
-def test_commands_and_files(scene_file: str, name: str, capsys: pytest.CaptureFixture[str]) -> None:
+def test_every_command_takes_and_writes_any_name(
+    scene_file: str, name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
     frame = {
         "file_path": f"{name}.png",
         "transform_matrix": [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 4], [0, 0, 0, 1]],

@@ -40,7 +40,7 @@ from lucida.renderer.system.errors import LucidaError
         ("7".ljust(80, "0"), 7e79),
     ],
 )
-def test_numbers(text, value):
+def test_a_number_is_read_in_every_form(text, value):
     assert number(text) == pytest.approx(value)
 
 
@@ -64,7 +64,7 @@ def test_what_is_told_of_it(text, told):
 @pytest.mark.parametrize(
     "text", ["(1/8, 0, -1)", "1/8, 0, -1", "[0.125; 0; -1]", "1/8 0 -1", "(1/8), 0, (-1)"]
 )
-def test_vectors(text):
+def test_a_vector_is_read_in_every_form(text):
     assert vector(text).tolist() == [0.125, 0.0, -1.0]
 
 
@@ -107,7 +107,7 @@ def mistakes(camera, i, j, size, indexing=Indexing.LECTURE):
     return [(one, Ray(*run_rays(program, known, (one,)))) for one in program.mistakes]
 
 
-def test_by_hand():
+def test_a_ray_computed_by_hand_is_right_scaled_or_rounded():
     # Row 2, column 6 of 8: u = 5.5/8 - 0.5, v = -(1.5/8 - 0.5).
     right = CANONICAL.check({"origin": "(0, 0, 0)", "direction": "3/16, 5/16, -1"})
     assert right.right
@@ -207,7 +207,7 @@ def test_what_is_no_vector_is_told_with_its_field():
     assert not CANONICAL.check({"origin": "0 0 0", "direction": "0 0 0"}).right
 
 
-def test_the_solution():
+def test_the_solution_shows_the_pixel_and_its_ray():
     text = CANONICAL.solution()
     assert "Pixel (2, 6)" in text and "(3/16, 5/16, -1)" in text
     assert r"\mathbf{p} = \mathbf{e} + u" in PARALLEL.solution()
@@ -226,7 +226,7 @@ class TestVectors:
         ],
     )
 
-    def test_verdicts(self):
+    def test_each_wrong_vector_has_its_own_verdict(self):
         check = self.exercise.check
         assert check({"w": "1, 0, 0", "u": "0 0 -5"}).right
         assert check({"w": "-1, 0, 0", "u": "0 0 -5"}).text == "w points back."

@@ -49,7 +49,7 @@ def test_signs_stay_with_the_formulas_that_they_touch():
     ]
 
 
-def test_where_everything_stands():
+def test_everything_stands_where_it_was_computed_by_hand():
     """By hand, for text of size 10: a line is 11.8 high, its baseline 8.9 below its top."""
     text = (
         "# Head\n\nText *is* **so** `code`.\n\n- a\n- b\n\n1. x\n\n> Why?\n\n$$\nx\n$$\n\n"

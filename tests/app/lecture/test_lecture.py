@@ -16,7 +16,7 @@ from lucida.renderer.camera.camera import Camera
 from lucida.renderer.system.errors import LucidaError
 
 
-def test_a_whole_file():
+def test_a_whole_file_is_read():
     lecture = read()
     assert (lecture.title, lecture.author) == ("A lecture", "A. Speaker")
     assert lecture.outline() == [("First", [0, 1]), ("Second", [2])]

@@ -98,7 +98,7 @@ def test_how_much_all_steps_and_all_scenes_hold(monkeypatch):
     assert "objects[0]: is a whole number" in told("[scenes.s]\nobjects = [1]\n" + STEP)
 
 
-def test_titles():
+def test_titles_stay_within_their_length():
     longest = "a" * 300
     assert read(f"[[steps]]\ntitle = '{longest}'\npart = '{longest}'\n").steps[0].part == longest
     for field in ("title", "part"):
@@ -123,7 +123,7 @@ def test_nested_arrays_of_any_depth(frames):
     assert sorted(answers) == answers and set(answers) == {few, many}
 
 
-def test_choices():
+def test_a_choice_has_two_to_eight_options():
     found = read(choice(8)).steps[0].exercise
     assert isinstance(found, ChoiceExercise) and len(found.options) == 8
     assert len(read(choice(2)).steps[0].exercise.options) == 2
@@ -136,7 +136,7 @@ def test_choices():
     assert told(text).startswith(f"{where}.question: a formula does not end")
 
 
-def test_vectors():
+def test_an_exercise_has_one_to_eight_vectors_with_names_of_their_own():
     found = read(vectors("u", "v", wrong=32, more="tolerance = 0.1")).steps[0].exercise
     assert isinstance(found, VectorExercise) and found.tolerance == 0.1
     assert [(one.name, one.value, len(one.wrong)) for one in found.answers] == [

@@ -8,7 +8,7 @@ from plain_text import plain_text, words_of
 from lucida.app.lecture import text as texts
 
 
-def test_blocks():
+def test_a_text_is_parsed_into_its_blocks():
     blocks = texts.parse(
         "# One\n\nA *slanted* **bold $x$** `code`\ngoes on.\n> Why\n> so?\n"
         "- a\n- b\n  c\n\n1. x\n2. y\n\n$$\na\nb\n$$\n$$ c $$\n```python\n  x = $1\n```\n"

@@ -40,7 +40,7 @@ def changed(state):
     )  # fmt: skip
 
 
-def test_ends_are_exact(state, changed):
+def test_a_movement_s_ends_are_the_states_themselves(state, changed):
     moving = movement(state, changed)
     assert moving.at(1) == moving.at(1.5) == changed
     first = moving.at(0)

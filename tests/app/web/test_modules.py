@@ -11,7 +11,7 @@ from lucida.app.web import bundle as bundling
 HERE = Path(__file__).parent
 
 
-def test_types_and_lint():
+def test_typescript_and_eslint_find_nothing():
     npm = shutil.which("npm")
     if npm is None or not (HERE / "node_modules").is_dir():
         pytest.skip("no TypeScript and ESLint here: .ci/run sets them up")

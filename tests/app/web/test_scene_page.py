@@ -96,7 +96,7 @@ def test_both_images_are_the_programs(page, scene):
                 )
 
 
-def test_shadows_and_reflections(page, tab, scene):
+def test_shadows_and_reflections_are_the_tracer_s(page, tab, scene):
     for label in ("shadows", "reflections"):
         tab.get_by_label(label).check()
     with Tracer(scene, shadows=True, mirror_depth=2) as tracer:

@@ -98,7 +98,7 @@ def test_files_loads_it_and_tells_it(model, monkeypatch):
     files.close()
 
 
-def test_notifications_are_text():
+def test_a_notification_s_name_is_printable():
     toasts = Toasts()
     toasts.add("Saved /tmp/\udcff.png.")
     assert toasts.texts == [r"Saved /tmp/\xff.png."]

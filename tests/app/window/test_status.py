@@ -28,7 +28,7 @@ def test_an_image_that_no_view_has_wanted_has_no_time():
     assert first[1].split() == ["ray", "...,", "640x480"]
 
 
-def test_right_texts():
+def test_the_right_side_has_pixel_object_and_work():
     assert right_texts(STATUS) == [""]
     pixel = replace(STATUS, pixel=(3, 4), seen="ball, t = 2")
     assert right_texts(pixel)[0] == "ball, t = 2  pixel (4, 5) from 1"
@@ -45,7 +45,7 @@ def test_an_agreement_that_will_not_come_is_not_awaited():
         assert agreement_text(replace(status, awaited=False)) == ""
 
 
-def test_nothing_overlaps():
+def test_texts_that_do_not_fit_are_left_out_before_they_overlap():
     lefts, rights = [100.0, 100.0, 100.0], [200.0, 90.0, 0.0]
     assert fitting(lefts, rights, 600) == (0, 0)
     assert fitting(lefts, rights, 500) == (0, 1)

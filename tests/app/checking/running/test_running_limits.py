@@ -145,7 +145,7 @@ def test_what_it_starts_ends_with_the_check(student, tmp_path):
     wait_for(lambda: not status.exists() or status.read_text().split()[2] == "Z")
 
 
-def test_closed_is_closed(student):
+def test_a_closed_student_says_so(student):
     one = student("def f(): return 7\n")
     assert one.call([F]).values == (7,)
     one.close()

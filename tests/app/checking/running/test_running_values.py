@@ -129,7 +129,7 @@ def test_a_call_does_not_change_what_the_next_is_given(student):
     assert run.values == ([[1, 2, 3], 5, 1, 2, False],) * 3
 
 
-def test_many_calls(student):
+def test_thousands_of_calls_are_answered_in_order(student):
     one = student("def f(i, camera):\n    print(i)\n    return i, camera.eye\n", output=100)
     run = one.call([called("f", i=i, camera=CAMERA) for i in range(3072)])
     assert run.values == tuple([i, [0.0, 0.0, 5.0]] for i in range(3072))

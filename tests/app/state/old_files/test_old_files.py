@@ -33,11 +33,11 @@ CAMERA = Camera(
 VIEW = View(CAMERA, False)
 
 
-def test_a_view():
+def test_an_old_view_is_read():
     assert load_view(FOLDER / "view.toml") == VIEW
 
 
-def test_a_scene():
+def test_an_old_scene_is_read():
     scene = load_scene(FOLDER / "scene.toml")
     assert (scene.name, scene.notes) == ("Everything", ())
     assert [entry.name for entry in scene.objects][:3] == ["ball", "crate", "ground"]
@@ -49,7 +49,7 @@ def test_a_scene():
     assert sum(len(entry.shape.faces) for entry in scene.objects if entry.name == "roof") == 3
 
 
-def test_key_cameras():
+def test_old_key_cameras_are_read():
     keys = load_keys(FOLDER / "keys.toml")
     assert [(key.seconds, key.timing) for key in keys] == [
         (1.5, "eased"),
@@ -60,7 +60,7 @@ def test_key_cameras():
     assert keys[2].view.camera.projection == "parallel"
 
 
-def test_a_task_file():
+def test_an_old_task_file_is_read_and_notes_what_has_left():
     file = load_tasks(FOLDER / "tasks.toml")
     said = [note.partition(" is")[0] for note in file.notes]
     assert said == ["network = false", "tasks[1]: to-gray", "tasks[2]: memory-offset"]
@@ -72,7 +72,7 @@ def test_a_task_file():
     assert ray.conventions.axes == (1, -1, -1)
 
 
-def test_a_lecture():
+def test_an_old_lecture_is_read():
     lecture = load_lecture(FOLDER / "lecture.toml")
     titles = ["A simple camera", "Lenses", "Loops", "A matrix", "A ray", "Hide"]
     assert [step.title for step in lecture.steps] == titles
@@ -83,7 +83,7 @@ def test_a_lecture():
         assert step.views and set(step.views) <= {*VIEWS, "camera"}
 
 
-def test_a_session(tmp_path):
+def test_an_old_session_is_read(tmp_path):
     session = from_bytes((FOLDER / "session.json").read_bytes())
     state = session.state(load_scene(session.source))
     assert state.view == VIEW

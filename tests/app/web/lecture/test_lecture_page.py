@@ -296,7 +296,7 @@ def test_a_formula_writes_known_elements_only(latex):
     assert not re.search(r"<[^>]*\b(?:href|style|id|on\w+|src|background)\s*=", html)
 
 
-def test_axe_finds_nothing(opened, shared):
+def test_axe_finds_nothing_in_any_theme(opened, shared):
     """All builds are shown at once, which costs a fifth of looking at one after another."""
     found = shared.axe(options="runOnly: ['landmark-unique'], ")  # builds of a step share a title
     opened.evaluate("document.querySelectorAll('.step').forEach((s) => s.classList.add('current'))")
