@@ -197,8 +197,9 @@ def check_wipe(d, raster, ray):
     assert d.state.camera == camera, "the divider was dragged"
     assert abs(d.options.compare.divider - 0.2) < 0.01
     check(round(d.options.compare.divider * width))
-    d.change(compare={"divider": 0.0})
-    assert close(below_labels(shown(d))[:, handle:-handle], ray[:, handle:-handle])
+    for divider, expected in ((0.0, ray), (1.0, raster)):
+        d.change(compare={"divider": divider})
+        assert close(below_labels(shown(d))[:, handle:-handle], expected[:, handle:-handle])
 
 
 def drive_the_status_line_shows_the_pixels_that_differ(d):

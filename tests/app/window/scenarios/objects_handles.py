@@ -38,9 +38,9 @@ def drive_handles_move_in_the_images_and_outside(d):
 
 def drive_escape_and_undo_end_the_drag_of_a_handle(d):
     choose_to(d, "move", "shiny sphere")
-    for view, ends in ((RASTER, (_escape, Driver.undo)), (OUTSIDE, (_escape,))):
+    for view in (RASTER, OUTSIDE):
         steps, before = d.steps, ball(d, "shiny sphere").center
-        for end in ends:
+        for end in (_escape, Driver.undo):
             grip, way = arrow(d, view, "shiny sphere", 1)
             d.move_to(tuple(grip))
             d.ctx.mouse_down(0)
