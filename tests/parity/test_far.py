@@ -129,7 +129,7 @@ def test_a_close_look_at_a_large_turned_mesh():
 
 
 @pytest.mark.parametrize("view", ["perspective", "parallel", "inside"])
-def test_the_limit(view):
+def test_renderers_agree_at_1e9_and_hold_numbers_beyond(view):
     """At 1e9 float64 has steps of 1e-7: the renderers still agree. Beyond, images become coarse,
     but hold numbers."""
     by = 1e9 * ODD

@@ -42,7 +42,7 @@ def drawn(request):
     return draw
 
 
-def test_half_a_wall(drawn):
+def test_half_a_wall_has_the_values_computed_by_hand(drawn):
     """The canonical camera, 4 x 2: u is -3/8, -1/8, 1/8 and 3/8, and the wall begins at x = 0.
 
     At z = -2 every ray (u, v, -1) has t = 2. Of the light from (0.6, 0, 0.8), the wall gets 0.8 and

@@ -6,7 +6,7 @@ from tools.attack import random_views
 from tools.attack.random_views import Task, main
 
 
-def test_some_views_agree(capsys):
+def test_the_attack_s_first_views_agree(capsys):
     assert main(["--views", "20"]) == 0
     assert "20 views" in capsys.readouterr().out
 

@@ -13,7 +13,7 @@ numbers = st.floats(-3, 3)
 vectors = st.tuples(numbers, numbers, numbers)
 
 
-def test_an_orthonormal_basis() -> None:
+def test_an_orthonormal_basis_measures_one_and_ninety() -> None:
     found = measures((0, 0, -1), (0, 1, 0), (1, 0, 0))
     assert found.lengths == (1, 1, 1)
     assert found.angles_deg == pytest.approx((90, 90, 90))

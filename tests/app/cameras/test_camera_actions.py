@@ -128,7 +128,7 @@ def test_framing_keeps_the_directions(window: Window) -> None:
     assert -0.5 <= seen.column.min() <= seen.column.max() <= 99.5
 
 
-def test_copy_and_paste(window: Window, clipboard: list[str]) -> None:
+def test_a_copied_camera_is_pasted_back(window: Window, clipboard: list[str]) -> None:
     start = window.state
     for name in ("Copy camera", "View file"):
         run(window, name)

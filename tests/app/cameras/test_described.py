@@ -107,7 +107,7 @@ class TestLens:
 
 
 class TestSet:
-    def test_all_together(self):
+    def test_a_set_is_described_with_its_names_and_points(self):
         eyes = ((0, 1, 6), (6, -1, 0))
         cameras = [
             PosedCamera(replace(PLAIN, eye=eye), SIZE, f"{i}.png") for i, eye in enumerate(eyes)

@@ -47,7 +47,7 @@ def seen(camera: Camera, world: tuple[float, float, float]) -> np.ndarray:
         ("Bottom", (1, 0, 0), (0, 0, 1), (0, -1, 0)),
     ],
 )
-def test_the_six_sides(name, right, up, toward) -> None:
+def test_a_side_looks_at_the_scene_from_outside(name, right, up, toward) -> None:
     camera = preset_view(name).camera
     assert (camera.u, camera.v, camera.w) == (right, up, toward)
     assert camera.is_parallel

@@ -89,7 +89,7 @@ def test_pixels_have_the_colours_of_the_saved_pictures(channel):
             assert not colors & others
 
 
-def test_linear_light():
+def test_linear_transfer_shows_light_without_a_curve():
     color = frame().color
     linear = shown_bytes(color, replace(COLOR, transfer="linear"), None)
     assert np.abs(linear - np.clip(color, 0, 1) * 255).max() <= 0.51

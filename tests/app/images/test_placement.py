@@ -121,7 +121,7 @@ def test_magnifying_keeps_what_is_under_the_pointer(size, pane, rulers, center, 
     ("magnification", "text"),
     [(1, "1:1"), (8, "8x"), (0.25, "1/4"), (1.5625, "1.56x"), (0.3, "0.3x"), (128, "128x")],
 )
-def test_magnifications_in_words(magnification, text):
+def test_a_magnification_is_told_in_words(magnification, text):
     assert magnification_text(magnification) == text
 
 

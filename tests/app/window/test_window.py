@@ -101,7 +101,7 @@ def check_picture(path, size):
     assert best < 3
 
 
-def test_no_display(tmp_path):
+def test_without_a_display_a_picture_is_saved_beside_what_is_there(tmp_path):
     mine = tmp_path / "lucida.png"
     mine.write_text("a user's own picture")
     done = launch(["-m", "lucida"], tmp_path, fresh=True)
@@ -168,7 +168,7 @@ def xvfb():
         server.wait()
 
 
-def test_on_a_display(tmp_path, xvfb):
+def test_the_window_is_shown_with_its_first_picture(tmp_path, xvfb):
     """The window is not to be seen before there is a picture to see in it."""
     script = """
 import glfw

@@ -98,7 +98,7 @@ def test_k_may_have_any_scale():
     assert camera.viewport == Camera.from_intrinsics(K, size=SIZE).viewport
 
 
-def test_numbers_are_bounded():
+def test_a_number_of_k_that_is_too_large_is_refused():
     wrong = np.array(K)
     wrong[0, 0] = 2 * LARGEST
     with pytest.raises(LucidaError, match="K: has the number 2e\\+12, which is too large"):

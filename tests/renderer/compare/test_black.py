@@ -114,7 +114,7 @@ def test_the_middle_is_of_the_bounds():
         (a_scene(), ""),
     ],
 )
-def test_no_light(scene, text):
+def test_an_image_without_light_says_why(scene, text):
     reason = seen(scene, Camera(viewport=(-0.1, 0.1, -0.1, 0.1))).shown(0.0)
     assert (reason.text if reason else "") == text
     assert reason is None or reason.cause == "light"

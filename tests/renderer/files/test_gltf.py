@@ -49,7 +49,7 @@ def materials_of(tmp_path: Path, *given: dict) -> list[Material]:
     return [entry.material for entry in scene.objects]
 
 
-def test_gltf_materials(tmp_path: Path) -> None:
+def test_materials_keep_colour_shine_and_sides(tmp_path: Path) -> None:
     base = [0.5, 0.01, 0.0, 1.0]
     pbrs = [{"metallicFactor": m, "roughnessFactor": r} for m, r in ((0, 0.5), (1, 0.5), (1, 0))]
     plastic, metal, smooth, default = materials_of(
@@ -122,7 +122,7 @@ def test_a_gltf_leaf_of_two_turned_faces_has_both_where_it_is_single_sided(tmp_p
         np.testing.assert_array_equal(entry.shape.faces, faces)
 
 
-def test_gltf_quantised_positions(tmp_path: Path) -> None:
+def test_quantised_positions_are_read(tmp_path: Path) -> None:
     tree = gltf({"POSITION": (CORNERS * 127).astype("i1")})
     mesh = mesh_of(load_gltf(tree, tmp_path).objects[0])
     np.testing.assert_array_equal(corners(mesh), [CORNERS])
@@ -133,7 +133,7 @@ AROUND = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [-1, 1, 0], [-1, 
 
 
 @pytest.mark.parametrize("mode", [4, 5, 6])
-def test_gltf_modes(mode: int, tmp_path: Path) -> None:
+def test_strips_and_fans_face_one_way(mode: int, tmp_path: Path) -> None:
     """All face +z: a strip's every other triangle goes the other way round."""
     points = AROUND if mode == 6 else ZIGZAG
     expected = {

@@ -73,7 +73,7 @@ GLTF_MISTAKES: list[tuple[dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize(("changes", "message"), GLTF_MISTAKES, ids=range(len(GLTF_MISTAKES)))
-def test_gltf(
+def test_a_hostile_gltf_is_refused(
     changes: dict[str, Any], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("lucida.renderer.files.models.gltf.OBJECTS", 5)
@@ -106,5 +106,5 @@ IN_CHUNK = changed({"buffers.0.uri": None})
         (struct.pack("<4sII", b"glTF", 1, 20) + bytes(20), "is not a complete glTF 2.0: version 1"),
     ],
 )
-def test_glb(content: bytes, message: str, tmp_path: Path) -> None:
+def test_a_hostile_glb_is_refused(content: bytes, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.glb", content)).startswith(message)

@@ -133,7 +133,7 @@ def test_obj_objects_and_materials_become_scene_objects_in_order(tmp_path: Path)
         "mtllib ../../../../../etc/passwd\nusemtl x\n" + TRIANGLE + "f 1 2 3\n",
     ],
 )
-def test_obj_dialects(text: str, tmp_path: Path) -> None:
+def test_every_dialect_of_obj_is_read(text: str, tmp_path: Path) -> None:
     mesh = load_one(write(tmp_path / "t.obj", text))
     np.testing.assert_array_equal(corners(mesh), [[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
 
@@ -188,7 +188,7 @@ def test_colours_of_any_type() -> None:
 
 
 @pytest.mark.parametrize("order", ["<", ">"])
-def test_binary_ply(order: str, tmp_path: Path) -> None:
+def test_a_binary_ply_is_read_in_both_byte_orders(order: str, tmp_path: Path) -> None:
     name = {"<": "binary_little_endian", ">": "binary_big_endian"}[order]
     header = PLY_HEADER.format(vertex="", face="").replace("ascii", name)
     points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], f"{order}f4")
@@ -232,7 +232,7 @@ def test_solids_of_a_text_stl_are_one_mesh(tmp_path: Path) -> None:
         ("\ufeff# marked\noff\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", 1),
     ],
 )
-def test_off_dialects(text: str, faces: int, tmp_path: Path) -> None:
+def test_every_dialect_of_off_is_read(text: str, faces: int, tmp_path: Path) -> None:
     assert len(load_one(write(tmp_path / "t.off", text)).faces) == faces
 
 

@@ -33,7 +33,7 @@ class TestPlaces:
         assert places.line("t.many[1].in.missing") == 20
         assert places.line("nothing") == 1
 
-    def test_paths(self):
+    def test_a_path_is_read_as_names_and_numbers(self):
         assert parsed_path("steps[3].camera.w") == ("steps", 3, "camera", "w")
         assert parsed_path("") == ()
 

@@ -48,13 +48,13 @@ def write(path: Path, content: str | bytes) -> Path:
 
 @pytest.mark.parametrize("ending", ENDINGS)
 class TestAnyEnding:
-    def test_empty(self, ending: str, tmp_path: Path) -> None:
+    def test_an_empty_file_is_refused(self, ending: str, tmp_path: Path) -> None:
         assert refusal(write(tmp_path / f"x.{ending}", b"")).startswith("is empty")
 
-    def test_missing(self, ending: str, tmp_path: Path) -> None:
+    def test_a_missing_file_is_refused(self, ending: str, tmp_path: Path) -> None:
         assert refusal(tmp_path / f"x.{ending}").startswith("does not exist")
 
-    def test_a_folder(self, ending: str, tmp_path: Path) -> None:
+    def test_a_folder_is_refused(self, ending: str, tmp_path: Path) -> None:
         (tmp_path / f"x.{ending}").mkdir()
         assert refusal(tmp_path / f"x.{ending}").startswith("is a folder")
 
@@ -63,18 +63,18 @@ class TestAnyEnding:
         os.mkfifo(tmp_path / f"x.{ending}")
         assert refusal(tmp_path / f"x.{ending}").startswith("is not an ordinary file")
 
-    def test_ten_gigabytes(self, ending: str, tmp_path: Path) -> None:
+    def test_ten_gigabytes_are_refused(self, ending: str, tmp_path: Path) -> None:
         path = write(tmp_path / f"x.{ending}", b"")
         os.truncate(path, 10 << 30)
         assert refusal(path).startswith("is too large, 10 GiB; stay within ")
 
     @pytest.mark.parametrize("seed", range(3))
-    def test_noise(self, ending: str, seed: int, tmp_path: Path) -> None:
+    def test_noise_is_refused(self, ending: str, seed: int, tmp_path: Path) -> None:
         noise = random.Random(seed).randbytes(5000)
         refusal(write(tmp_path / f"x.{ending}", noise))
 
 
-def test_view_files_too(tmp_path: Path) -> None:
+def test_a_hostile_view_file_is_refused(tmp_path: Path) -> None:
     path = write(tmp_path / "v.toml", b"")
     os.truncate(path, 10 << 30)
     assert refusal(path, load_view).startswith("is too large")
@@ -105,7 +105,7 @@ def test_view_files_too(tmp_path: Path) -> None:
         ("v 0 0 0\nv 1 0 0 # of 0,5\nv 0 1,5 0\nf 1 2 3\n", "line 3: 'v 0 1,5 0' is not valid"),
     ],
 )
-def test_obj(text: str, message: str, tmp_path: Path) -> None:
+def test_a_hostile_obj_is_refused(text: str, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.obj", text)).startswith(message)
 
 
@@ -158,7 +158,7 @@ BINARY_POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()
         ),
     ],
 )
-def test_ply(content: str | bytes, message: str, tmp_path: Path) -> None:
+def test_a_hostile_ply_is_refused(content: str | bytes, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.ply", content)).startswith(message)
 
 
@@ -187,7 +187,7 @@ def stl(declared: int, triangles: int, value: float = 0.0) -> bytes:
         (f"solid x\n{FACET.replace('vertex 1 0 0', 'vertex 1 0')}endsolid\n", "has a vertex"),
     ],
 )
-def test_stl(content: str | bytes, message: str, tmp_path: Path) -> None:
+def test_a_hostile_stl_is_refused(content: str | bytes, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.stl", content)).startswith(message)
 
 
@@ -205,5 +205,5 @@ def test_stl(content: str | bytes, message: str, tmp_path: Path) -> None:
         ("4OFF\n1 1 1\n", "does not begin with OFF"),
     ],
 )
-def test_off(text: str, message: str, tmp_path: Path) -> None:
+def test_a_hostile_off_is_refused(text: str, message: str, tmp_path: Path) -> None:
     assert refusal(write(tmp_path / "x.off", text)).startswith(message)

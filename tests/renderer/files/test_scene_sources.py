@@ -67,7 +67,9 @@ def _world(mesh: Mesh) -> np.ndarray:
         ("a" * 5000 + ".obj", "aaaa"),
     ],
 )
-def test_unknown_sources(source: str, message: str, tmp_path: Path, monkeypatch) -> None:
+def test_an_unknown_source_is_refused_with_a_remedy(
+    source: str, message: str, tmp_path: Path, monkeypatch
+) -> None:
     monkeypatch.chdir(tmp_path)
     with pytest.raises(LucidaError) as caught:
         load_scene(source)

@@ -52,7 +52,7 @@ def test_the_curve_is_close_to_exact_arithmetic():
     np.testing.assert_allclose(encode_srgb(linear), exact, atol=3e-7)
 
 
-def test_exposure_is_stops():
+def test_a_stop_of_exposure_doubles_the_light():
     np.testing.assert_array_equal(to_srgb8([0.25], 1.0), to_srgb8([0.5]))
     np.testing.assert_array_equal(to_srgb8([0.5], -2.0), to_srgb8([0.125]))
 
@@ -62,7 +62,7 @@ def test_what_is_not_a_colour_is_black_or_white():
     assert to_srgb8(wild, 32).tolist() == [0, 0, 0, 255, 255]
 
 
-def test_blocks_join():
+def test_a_ramp_is_encoded_without_a_seam_between_blocks():
     long = np.linspace(0, 1, (1 << 20) + 7, dtype=np.float32)
     result = to_srgb8(long)
     assert result[-1] == 255
@@ -191,7 +191,7 @@ def test_pbm_is_bit_exact(tmp_path):
     assert (tmp_path / "a.pbm").read_bytes() == b"P4\n9 2\n" + bytes([0x80, 0x80, 0x40, 0])
 
 
-def test_endings_in_capitals(tmp_path, frame):
+def test_an_ending_may_be_in_capitals(tmp_path, frame):
     write_image(tmp_path / "A.PNG", frame)
     with Image.open(tmp_path / "A.PNG") as image:
         assert image.format == "PNG"
@@ -208,12 +208,12 @@ def test_a_ready_picture_goes_into_the_8_bit_formats_only(tmp_path, frame):
 
 
 @pytest.mark.parametrize("name", ["a", "a.gif", "a.png.txt", ".png", ""])
-def test_unknown_endings(tmp_path, frame, name):
+def test_an_unknown_ending_is_refused(tmp_path, frame, name):
     with pytest.raises(LucidaError, match=r"ending.*\.png"):
         write_image(tmp_path / name, frame)
 
 
-def test_a_missing_folder(tmp_path, frame):
+def test_a_missing_folder_is_refused(tmp_path, frame):
     with pytest.raises(LucidaError, match=r"a\.png: folder .* does not exist"):
         write_image(tmp_path / "none" / "a.png", frame)
 

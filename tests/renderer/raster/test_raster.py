@@ -12,7 +12,7 @@ from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Mesh, PointLight, Scene, SceneObject, Sphere
 
 
-def test_a_sphere_ahead(rasterizer):
+def test_a_sphere_ahead_has_the_depths_computed_by_hand(rasterizer):
     rasterizer.set_scene(Scene((SceneObject(Sphere((0, 0, -5), 3.0)),)))
     frame = rasterizer.render(Camera(), (3, 3), CHANNELS)
     assert frame.depth[1, 1] == pytest.approx(2, rel=1e-6)

@@ -19,7 +19,7 @@ def display(gl):
 
 
 @pytest.mark.parametrize("exposure_ev", [0.0, 1.5, -3.0])
-def test_agrees_with_numpy(show, exposure_ev):
+def test_the_display_agrees_with_numpy(show, exposure_ev):
     levels = np.concatenate(
         [[0, 1e-6, 0.0031308, 0.5, 1, 1.0001, 7, 1e4], np.linspace(0, 1.2, 400)]
     )
@@ -38,7 +38,7 @@ def test_extreme_exposures_do_no_harm(show):
     assert show(gray, Look(exposure_ev=-5000.0))[0, 0].tolist() == [0] * 3
 
 
-def test_nothing_is_left(gl):
+def test_released_resources_leave_nothing(gl):
     gl.gc_mode = "context_gc"
     texture, display, ranges = None, Display(gl), DepthRange(gl)
     target = gl.framebuffer([gl.texture((9, 9), 4)])

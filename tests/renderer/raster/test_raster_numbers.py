@@ -42,7 +42,7 @@ def test_a_planet_under_the_camera(rasterizer):
     assert (frame.id == 0).mean() > 0.5
 
 
-def test_a_planets_horizon(rasterizer):
+def test_a_planet_s_horizon_has_exact_depths(rasterizer):
     planet = Scene((SceneObject(Sphere((0, -1000, 0), 1000)),))
     camera = Camera.look_at((0, 0.005, 0), (0, 0, -2), fov_y_deg=10)
     rasterizer.set_scene(planet)

@@ -232,7 +232,7 @@ def test_derived_systems_count_as_their_parents(monkeypatch, release, system):
 
 
 @pytest.mark.parametrize(("name", "system"), [("darwin", "macos"), ("win32", "windows")])
-def test_systems_without_egl(monkeypatch, name, system):
+def test_systems_without_egl_have_other_candidates(monkeypatch, name, system):
     monkeypatch.setattr("sys.platform", name)
     assert this_system() == system
     assert contexts.candidates() == ("default", "osmesa")

@@ -51,7 +51,7 @@ def test_a_scene_that_is_refused_leaves_the_old_one(rasterizer):
     assert rasterizer.render(Camera(), (1, 1)).id[0, 0] == 0
 
 
-def test_many_objects(rasterizer):
+def test_objects_in_more_than_one_row_of_their_table_keep_their_ids(rasterizer):
     """More than one row of a table: 8 texels an object, 4096 a row."""
     n = 30
     spheres = [
@@ -64,7 +64,7 @@ def test_many_objects(rasterizer):
     np.testing.assert_array_equal(ids, np.arange(n * n).reshape(n, n)[::-1])
 
 
-def test_many_triangles(rasterizer):
+def test_triangles_in_more_than_one_row_of_their_table_keep_their_numbers(rasterizer):
     """More than one row of the table of triangles."""
     n = 70
     y, x = np.mgrid[: n + 1, : n + 1] - n / 2

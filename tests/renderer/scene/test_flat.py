@@ -84,7 +84,7 @@ def test_checker_cells_are_centred_on_the_objects_origin():
     np.testing.assert_array_equal(flat.materials[0, 1, 3], 1)
 
 
-def test_lights_are_rows():
+def test_each_light_is_a_row_of_place_and_colour():
     lights = (PointLight((1, 2, 3), (0.5, 0.5, 0.5)), DirectionalLight((0, -2, 0)))
     flat = flatten(Scene((), lights))
     places, colors = [[1, 2, 3, 1], [0, 1, 0, 0]], [[0.5, 0.5, 0.5, 0], [1, 1, 1, 0]]

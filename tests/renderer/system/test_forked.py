@@ -77,7 +77,7 @@ def outcomes(script, folder):
     return {name: outcome for name, _, outcome in lines}
 
 
-def test_a_tracer(tmp_path):
+def test_a_tracer_works_or_says_so_in_a_forked_process(tmp_path):
     came = outcomes(TRACER, tmp_path)
     for name in ("used", "result", "wait", "beside"):
         text = came.pop(name)
@@ -88,7 +88,7 @@ def test_a_tracer(tmp_path):
     }  # fmt: skip
 
 
-def test_a_rasterizer(tmp_path, gl_backend):
+def test_a_rasterizer_works_or_says_so_in_a_forked_process(tmp_path, gl_backend):
     came = outcomes(RASTERIZER.format(backend=gl_backend), tmp_path)
     for name in ("inherited", "new"):
         text = came.pop(name)

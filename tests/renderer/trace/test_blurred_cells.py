@@ -26,7 +26,7 @@ def test_usual_scenes_need_no_exact_cells(name):
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_thin_cells_do(projection):
+def test_thin_cells_are_coarse(projection):
     camera = Camera((0.3, -0.2, 5.0), viewport=(-0.8, 0.7, -0.4, 0.6), projection=projection)
     corners = [(-1, 0, 0.5), (1, 0.1, -0.5), (0.2, 1.06, 0.3)]
     mesh = Mesh(corners, [[0, 1, 2]], transform=np.diag((1e-3, 500.0, 300.0, 1.0)))

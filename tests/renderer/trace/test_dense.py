@@ -65,13 +65,13 @@ def outside(projection):
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
 @pytest.mark.parametrize("size", SIZES)
-def test_every_density(projection, size, dense):
+def test_dense_meshes_are_traced_closely_at_every_size(projection, size, dense):
     frame = dense.check_closely(outside(projection), size)
     assert frame.id.max() >= 0
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_skewed_cameras(projection, dense):
+def test_skewed_cameras_trace_dense_meshes_closely(projection, dense):
     random = np.random.default_rng(5)
     for number in range(8):
         w = random.normal(size=3)

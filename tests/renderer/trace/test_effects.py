@@ -135,7 +135,7 @@ def test_a_mirror_shows_what_the_reflected_ray_hits():
     assert np.allclose(frame.color[frame.id == 1], (0.9, 0.4, 0.2), atol=1e-6)
 
 
-def test_bounces_end():
+def test_mirrors_add_no_more_than_their_bounces():
     mirror = Material((0.2, 0.2, 0.2), (0.5, 0.5, 0.5))
     roof = Mesh(FLOOR.vertices + np.float32([0, 5, 0]), FLOOR.faces)
     scene = Scene((SceneObject(FLOOR, mirror), SceneObject(roof, mirror)), ambient=(1, 1, 1))

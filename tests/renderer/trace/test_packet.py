@@ -95,7 +95,7 @@ def test_pixels_that_differ_touch_an_outline(both):
 
 @pytest.mark.parametrize("distance", [3.0, 360.0, 1e4])
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_telephoto(distance, projection, both):
+def test_a_telephoto_view_equals_the_reference(distance, projection, both):
     """Views that see a thousandth of the scene, from near and from far."""
     pair = both(Scene((SceneObject(ball(200, 300)), SceneObject(Sphere((0.9, 0.1, 0.4), 0.05)))))
     eye = np.array([0.6, 0.5, 0.7]) * distance
@@ -123,7 +123,7 @@ def test_pixel_centres_on_vertices_and_edges_are_covered(both):
 
 
 @pytest.mark.parametrize("size", [(1, 1), (3, 2), (16, 16), (17, 33), (70, 5)])
-def test_every_size(size, both):
+def test_images_of_every_size_equal_the_reference(size, both):
     pair = both(crowd())
     camera = Camera.look_at((3, 2, 4), (0, 0, 0)).fitted(size)
     pair.check(camera, size)

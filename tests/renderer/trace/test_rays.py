@@ -103,7 +103,7 @@ def test_rays_that_are_none_hit_nothing(team):
     assert len(t) == len(primitive) == 0
 
 
-def test_an_empty_scene(team):
+def test_nothing_is_hit_in_an_empty_scene(team):
     scene = Scene(())
     instances = Instances(scene, flatten(scene), team)
     rays = np.zeros((5, 3), np.float32), np.ones((5, 3), np.float32)

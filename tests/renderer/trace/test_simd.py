@@ -36,7 +36,7 @@ def operators(x, y, i, out, iout):
     store(iout, 48, ~k)
 
 
-def test_operators():
+def test_operators_are_those_of_numpy():
     x, y = random.normal(size=(2, 16)).astype(np.float32)
     i = random.integers(-1000, 1000, 16, dtype=np.int32)
     out, iout = np.empty(80, np.float32), np.empty(64, np.int32)
@@ -88,7 +88,7 @@ def functions(x, y, z, out, numbers):
     numbers[1], numbers[2] = simd.lane_of(a, 11), np.float32(simd.lowest_bit(0x0A0))
 
 
-def test_functions():
+def test_functions_are_those_of_numpy():
     x, y, z = random.normal(size=(3, 16)).astype(np.float32)
     out, numbers = np.empty(176, np.float32), np.empty(3, np.float32)
     functions(x, y, z, out, numbers)
@@ -119,7 +119,7 @@ def memory(table, indices, square, square3, out):
     simd_memory.store_square3(pointer(square3), 3, 15, x, x * np.float32(2), x * np.float32(3))
 
 
-def test_memory():
+def test_lanes_read_and_write_their_own_memory():
     table = random.normal(size=40).astype(np.float32)
     indices = random.integers(0, 40, 16, dtype=np.int32)
     indices[1::2] = 1 << 30  # of lanes that are masked: not looked at
@@ -176,7 +176,7 @@ def memory_by_lanes(table, indices, doubles, out):
     eighth[1] = eighth[0] / 3.0
 
 
-def test_memory_by_lanes():
+def test_lanes_read_neighbours_and_share_lanes():
     table = random.integers(-(1 << 31), 1 << 31, 60).astype(np.int32)
     k = random.integers(0, 52, 16, dtype=np.int32)
     numbers, out = np.array([0.0, 0.0, 8.0, 0.0, 5.0]), np.empty(96, np.int32)
@@ -197,7 +197,7 @@ def streaming(source, lines, begins):
             simd_memory.stream(lines, i, load(source, i))
 
 
-def test_streaming():
+def test_streamed_lines_are_aligned_and_complete():
     source = random.normal(size=64).astype(np.float32)
     lines, begins = np.zeros(64, np.float32), np.zeros(33, np.bool_)
     streaming(source, lines, begins)
@@ -217,7 +217,7 @@ def powers(x, exponent, out):
 
 
 @pytest.mark.parametrize("exponent", [1, 2, 7.5, 50, 1000])
-def test_powers(exponent):
+def test_powers_are_exact_to_their_tolerance(exponent):
     x = np.concatenate([[0, 1, 1e-30, 0.5], np.linspace(0.9, 1, 1020), random.uniform(0, 1, 1024)])
     x = x.astype(np.float32)
     out = np.empty_like(x)
@@ -230,7 +230,7 @@ def test_powers(exponent):
 
 
 @pytest.mark.skipif(platform.machine() not in ("x86_64", "AMD64"), reason="x86's instruction sets")
-def test_older_processors():
+def test_the_others_pass_on_older_processors():
     """This file's other tests, compiled for a processor without AVX: where renderer/trace has
     changed since the last commit but one, or nobody knows."""
     diff = ["git", "diff", "--quiet", "HEAD^", "--", "renderer/trace"]

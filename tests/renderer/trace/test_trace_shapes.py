@@ -152,7 +152,7 @@ def test_of_equally_near_faces_the_first_is_seen():
     assert set(np.unique(frame.id)) == {-1, 0}
 
 
-def test_mistakes_are_told():
+def test_wrong_settings_of_the_tracer_are_told():
     with pytest.raises(LucidaError, match="threads: 0 is not in"):
         Tracer(scene_of(quad()), threads=0)
     with Tracer(scene_of(quad())) as tracer:

@@ -89,6 +89,6 @@ def test_a_step_marks_and_magnifies(state):
     assert comparing.stepped(state, compared()) is state
 
 
-def test_effects_have_names(state):
+def test_shadows_and_mirrors_are_named(state):
     both = with_options(state, shadows=True, mirrors=True)
     assert comparing.effects_of(both) == "shadows and mirrors"

@@ -18,7 +18,7 @@ SIZE = (8, 6)
         (("5", "7"), Indexing.ARRAY, (5, 7)),
     ],
 )
-def test_pixels(texts, indexing, pixel):
+def test_a_typed_pixel_is_read_in_either_indexing(texts, indexing, pixel):
     assert parsed_pixel(texts, SIZE, indexing) == pixel
 
 
@@ -36,7 +36,7 @@ def test_pixels(texts, indexing, pixel):
         (("1", "9" * 5000), Indexing.ARRAY, "is no column"),
     ],
 )
-def test_mistakes(texts, indexing, told):
+def test_a_typed_mistake_is_told(texts, indexing, told):
     with pytest.raises(LucidaError) as caught:
         parsed_pixel(texts, SIZE, indexing)
     assert told in str(caught.value)

@@ -40,7 +40,7 @@ def test_each_format_is_known_and_read(tmp_path, name):
 
 
 @pytest.mark.parametrize("orientation", range(1, 9))
-def test_it_stands_upright(tmp_path, orientation):
+def test_a_photograph_stands_upright_in_every_orientation(tmp_path, orientation):
     """As the EXIF specification has it: where the file's row 0 and column 0 are to be seen."""
     exif = Image.Exif()
     exif[ORIENTATION] = orientation

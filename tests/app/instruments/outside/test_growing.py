@@ -53,7 +53,7 @@ def test_the_whole_formula_is_the_viewing_ray_head_to_tail(camera, pixel) -> Non
 
 
 @given(cameras(), pixels, positions, positions)
-def test_it_only_grows(camera, pixel, one, other) -> None:
+def test_a_growing_construction_never_shrinks(camera, pixel, one, other) -> None:
     """No term gets shorter, and none begins before the one it is added to has arrived."""
     first, last = sorted((one, other))
     before, after = (_terms(camera, pixel, position) for position in (first, last))

@@ -93,7 +93,7 @@ class TestTheCameraThatLooks:
         st.floats(0.3, 3),
         st.sampled_from([1e-6, 1.0, 1e6]),
     )
-    def test_sees_all_points(
+    def test_the_camera_that_looks_sees_all_points(
         self, points: list[Any], home: Camera, aspect: float, scale: float
     ) -> None:
         world = np.array(points) * scale

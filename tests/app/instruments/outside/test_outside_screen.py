@@ -98,7 +98,7 @@ class TestScreen:
 
 
 class TestPlane:
-    def test_its_sides(self) -> None:
+    def test_the_plane_s_front_is_told_from_its_back_and_its_edge(self) -> None:
         inner = Camera.canonical()
         corners, eye = plane_corners(inner)[[0, 1, 3]], np.asarray(inner.eye)
         behind = Camera.look_at((0, 0, -3), (0, 0, 0))

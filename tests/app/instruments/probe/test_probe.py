@@ -105,7 +105,7 @@ def test_the_eye_inside_a_sphere_and_a_box():
     assert line(hit_lines(reading), "geometric").name == "normal, towards the viewer"
 
 
-def test_the_background():
+def test_a_ray_without_a_hit_reads_the_background():
     reading = Probe(BALL).at((0, 0), Camera.canonical(), SIZE)
     assert reading.hit is None and reading.shading is None
     assert reading.color == (0.25, 0.5, 0.75)

@@ -142,7 +142,7 @@ def test_every_formula_can_be_set(name):
             assert not formula.available() or mistake(form) is None
 
 
-def test_which_t_count():
+def test_the_range_of_t_is_that_of_near_and_far():
     found = {name: by_key(make())["range"] for name, make in ALL.items()}
     assert found["near and far"] == ["near / d < t < far / d", "0.5 < t < 6"]
     assert found["parallel, far"] == ["0 < t < far", "0 < t < 6"]

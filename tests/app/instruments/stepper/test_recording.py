@@ -50,7 +50,7 @@ def test_recording_leaves_tracing_as_it_was() -> None:
 
 
 @pytest.mark.parametrize("size", [(0, 3), (65, 3), (4, 49)])
-def test_canvases_are_small(size: tuple[int, int]) -> None:
+def test_a_canvas_too_large_is_refused(size: tuple[int, int]) -> None:
     with pytest.raises(
         LucidaError, match=r"canvas\[[01]\]: \d+ is out of range; give 1 to (64|48)"
     ):

@@ -46,7 +46,7 @@ TEXT = [
 
 
 @pytest.mark.parametrize(("name", "change", "expected"), TEXT)
-def test_broken_text(tmp_path, name, change, expected):
+def test_a_broken_text_names_file_line_and_value(tmp_path, name, change, expected):
     folder = model(tmp_path, **{name.replace("points3D", "points"): changed(*change)})
     assert said(folder).startswith(f"{name}.txt: {expected}")
 
@@ -91,7 +91,7 @@ BINARY_CASES = [
 
 
 @pytest.mark.parametrize(("name", "change", "expected"), BINARY_CASES)
-def test_broken_binary(tmp_path, name, change, expected):
+def test_a_broken_binary_names_file_and_value(tmp_path, name, change, expected):
     folder = binary_model(tmp_path, **{name: change(BINARY[f"{name}.bin"])})
     assert said(folder).startswith(f"{name}.bin: {expected}")
 

@@ -90,7 +90,7 @@ AT_POSE = Camera.from_intrinsics(K, size=(640, 480), camera_from_world=POSE)
 
 
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 0.5, 3.0, np.pi - 1e-9, np.pi])
-def test_rotations_as_vectors(angle: float) -> None:
+def test_a_rotation_vector_turns_about_itself(angle: float) -> None:
     for axis in np.random.default_rng(3).normal(size=(20, 3)):
         vector = angle * axis / np.linalg.norm(axis)
         rotation = from_vector(vector)
@@ -144,7 +144,7 @@ def test_a_vector_that_opencv_5_wrote(text: str) -> None:
     assert camera.camera.intrinsics((640, 480)).t == pytest.approx([1, 2, 3])
 
 
-def test_opencv_s_xml() -> None:
+def test_opencv_s_xml_is_read_with_its_pose() -> None:
     (camera,) = pasted(XML).cameras
     pose = np.column_stack([from_vector(np.array([0.1, 0.2, 0.3])), (1, 2, 3)])
     wanted = Camera.from_intrinsics(K, size=(640, 480), camera_from_world=pose)
