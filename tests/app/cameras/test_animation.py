@@ -18,6 +18,7 @@ from lucida.renderer.camera.navigation import switched_projection
 from lucida.renderer.files import load_scene
 from lucida.renderer.scene.focus import scene_focus
 from lucida.renderer.scene.model import View
+from lucida.renderer.system.errors import LucidaError
 
 PRESET = {preset.name: preset for preset in PRESETS}
 
@@ -121,6 +122,25 @@ def test_what_lies_behind_the_first_eye_is_not_seen_while_the_eye_draws_back() -
         between = passage.at(part).camera
         assert between.near is not None
         assert between.eye[2] - between.near == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("z", [1.5, 5.0])
+def test_between_the_projections_a_focus_behind_the_eye_is_the_middle_of_the_image_plane(z) -> None:
+    camera = Camera(eye=(0.0, 0.0, 1.0))
+    ends = View(camera), View(replace(camera, projection="parallel"))
+    wanted = Passage(*ends, (0, 0, 0), SIZE).at(0.5)
+    assert Passage(*ends, (0, 0, z), SIZE).at(0.5) == wanted
+    assert wanted.camera not in (ends[0].camera, ends[1].camera)
+
+
+def test_where_no_legal_camera_lies_between_the_nearer_end_is_shown(monkeypatch) -> None:
+    def illegal(*_):
+        raise LucidaError("camera", "is not legal")
+
+    monkeypatch.setattr(Passage, "_between", illegal)
+    start, end = View(Camera()), View(Camera(eye=(0, 0, 1)))
+    passage = Passage(start, end, FOCUS, SIZE)
+    assert [passage.at(part) for part in (0.4, 0.6)] == [start, end]
 
 
 @pytest.mark.parametrize("eye", [(3.0, 0.5, -0.49999), (0.0, 0.5, -4.0), (-40.0, 3.0, 60.0)])

@@ -154,6 +154,16 @@ def test_a_session_keeps_the_build(tmp_path):
     assert LectureSession.resumed(session.kept(state)).place == session.place
 
 
+def test_the_last_session_s_end_is_offered_until_another_step_is_shown(tmp_path):
+    path = tmp_path / "x.toml"
+    path.write_text(f"title = 'L'\n{STEP}{BUILD}{STEP}{STEP.replace('T', 'Last')}")
+    ended = LectureSession(load_lecture(path), path, (2, 0))
+    kept = ended.kept(AppState(ended.step.scene, ended.step.view, True))
+    session = LectureSession(load_lecture(path), path, left=kept)
+    assert session.walk(1) and session.left is kept
+    assert session.walk(1) and session.left is None
+
+
 def test_lists_and_answers_are_builds():
     text = "text = '''\n- one\n- two\n\n> Why?\n\n1. three\n'''\n"
     lecture = read(f"{STEP}reveal = true\nanswer = 'So.'\n{text}{STEP}low = true\n")

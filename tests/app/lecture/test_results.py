@@ -147,7 +147,8 @@ def test_the_page_is_plain_and_all_text_is_escaped(tmp_path):
     evil = '<script>alert(1)</script><img src=x onerror="1">\x1b[31m'
     line = {**LINE, "right": False, "mistake": evil, "reply": evil, "read": evil, "step": evil}
     formula = {**LINE, "right": False, "mistake": r"$R\mathbf{e}$ is **0**", "name": "Ada Secret"}
-    path = written(tmp_path / f"{'x' * 9}<b>.jsonl", line, formula, {"a": "<i>"})
+    unset = {**LINE, "right": False, "mistake": r"no formula: $\nope"}
+    path = written(tmp_path / f"{'x' * 9}<b>.jsonl", line, formula, unset, {"a": "<i>"})
     text = page(read_answers([path])[0], ["One"])
     tags = Tags()
     tags.feed(text)
@@ -155,6 +156,7 @@ def test_the_page_is_plain_and_all_text_is_escaped(tmp_path):
     assert not any(name.startswith("on") or name in ("src", "href") for name in tags.attributes)
     assert "Ada" not in text and "\x1b" not in text and "<strong>0</strong>" in text
     assert "<script>alert(1)</script>" in tags.text
+    assert r"no formula: $\nope" in tags.text
 
 
 def test_the_command_writes_the_page(tmp_path, capsys):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from contextlib import suppress
 from itertools import pairwise
 from pathlib import Path
@@ -12,8 +13,9 @@ import psutil
 import pytest
 from PIL import Image
 
-from lucida import load_scene
+from lucida import Camera, load_scene
 from lucida.app.cameras.films import frames, workers
+from lucida.app.cameras.films.frames import Look, Shot
 from lucida.app.cameras.films.paths import around
 from lucida.app.cli import main
 from lucida.renderer.scene.focus import scene_focus
@@ -139,6 +141,23 @@ def test_a_scheduler_that_does_not_answer_is_told(animate, monkeypatch):
     monkeypatch.setattr(workers, "PATIENCE_S", 1)
     status, _, err = animate("--orbit", "-o", "a.mp4", "--scheduler", "tcp://127.0.0.1:9")
     assert status == 2 and "does not answer" in err
+
+
+def test_workers_without_their_package_are_refused_with_the_remedy(animate, monkeypatch):
+    monkeypatch.setitem(sys.modules, "dask.distributed", None)
+    status, _, err = animate("--orbit", "-o", "a.mp4", "--workers", "2", *SMALL)
+    assert status == 2 and "--workers: needs the package distributed; " in err
+
+
+def test_renderers_are_kept_for_one_scene_and_look(monkeypatch):
+    scene, shot, made = load_scene("spheres"), Shot(Camera(eye=(0, 0, 6)), (8, 6)), []
+    drawing = frames.Drawing
+    monkeypatch.setattr(frames, "Drawing", lambda *of: made.append(of) or drawing(*of))
+    looks = Look("ray"), Look("ray"), Look("ray", exposure=1.0)
+    one, same, brighter = (frames.draw_shot(scene, look, shot) for look in looks)
+    frames.close_kept()
+    assert one == same != brighter
+    assert made == [(scene, looks[0]), (scene, looks[2])]
 
 
 def test_what_else_is_in_a_folder_stays(animate):
