@@ -1,6 +1,6 @@
-"""Processes of Lucida, each forked from one that has imported its modules.
+"""Processes of Lucida, each forked from one that has imported its modules and loaded its kernels.
 
-Importing them takes half of a start. The window, the files and the exit are those of a process of
+That takes more than half of a start. The window, the files and the exit are those of a process of
 its own; only a test of the start itself needs one that begins with nothing.
 """
 
@@ -115,8 +115,10 @@ def _become(request: dict[str, Any]) -> None:
 if __name__ == "__main__":
     import stepped  # noqa: F401  the window, and what tests do with it
 
-    import lucida.app.window.launch
-    import lucida.renderer.trace  # noqa: F401
+    import lucida.app.window.launch  # noqa: F401
+    from lucida.renderer.trace.parts import compile_part
 
+    for part in ("trees", "walk-plain", "write-plain"):
+        compile_part(part)
     gc.freeze()  # or a collection would write to all pages, which then are copied
     _become(_serve())

@@ -26,7 +26,7 @@ from lucida.renderer.files import load_scene
 broken, view = sys.argv[1], sys.argv[2]
 good = sources.read_shader
 state = AppState.for_scene(load_scene("still-life"))
-run = WindowRun(start_platform(want_display=False), state, (1100, 720), remember=False)
+run = WindowRun(start_platform(want_display=False), state, (800, 520), remember=False)
 window, told = run.window, {}
 frames = iter(range(10**9))
 waited = 0
