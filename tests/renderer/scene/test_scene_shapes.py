@@ -10,12 +10,12 @@ from lucida.renderer.scene.normals import face_normals, merge_positions
 from lucida.renderer.system.errors import LucidaError
 
 CLOSED = {
-    "box": (shapes.box((1, 2, 3)), 6.0, 2),
-    "cylinder": (shapes.cylinder(0.5, 2.0, 256), math.pi / 4 * 2, 2),
-    "flat cylinder": (shapes.cylinder(0.5, 2.0, 256, smooth=False), math.pi / 4 * 2, 2),
-    "cone": (shapes.cone(0.5, 2.0, 256), math.pi / 4 * 2 / 3, 2),
-    "torus": (shapes.torus(1.0, 0.25, 256, 256), 2 * math.pi**2 * 0.25**2, 0),
-    "three-sided cylinder": (shapes.cylinder(1.0, 1.0, 3), 3 * math.sqrt(3) / 4, 2),
+    "box": (lambda: shapes.box((1, 2, 3)), 6.0, 2),
+    "cylinder": (lambda: shapes.cylinder(0.5, 2.0, 256), math.pi / 4 * 2, 2),
+    "flat cylinder": (lambda: shapes.cylinder(0.5, 2.0, 256, smooth=False), math.pi / 4 * 2, 2),
+    "cone": (lambda: shapes.cone(0.5, 2.0, 256), math.pi / 4 * 2 / 3, 2),
+    "torus": (lambda: shapes.torus(1.0, 0.25, 256, 256), 2 * math.pi**2 * 0.25**2, 0),
+    "three-sided cylinder": (lambda: shapes.cylinder(1.0, 1.0, 3), 3 * math.sqrt(3) / 4, 2),
 }
 
 
@@ -26,7 +26,8 @@ def volume(mesh):
 
 @pytest.mark.parametrize("name", CLOSED)
 def test_closed_shapes_have_their_volume_and_no_gap(name):
-    mesh, expected, euler = CLOSED[name]
+    make, expected, euler = CLOSED[name]
+    mesh = make()
     assert volume(mesh) == pytest.approx(expected, rel=3e-4)  # above 0: faces look outward
     faces = merge_positions(mesh.vertices)[mesh.faces]
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
@@ -38,7 +39,7 @@ def test_closed_shapes_have_their_volume_and_no_gap(name):
 
 @pytest.mark.parametrize("name", CLOSED)
 def test_vertex_normals_are_unit_and_on_the_side_of_their_faces(name):
-    mesh = CLOSED[name][0]
+    mesh = CLOSED[name][0]()
     if mesh.normals is None:
         assert name in ("box", "flat cylinder")
         return
@@ -52,6 +53,13 @@ def test_vertex_normals_are_unit_and_on_the_side_of_their_faces(name):
     assert (agreement[smooth] > 0.49).all()  # a triangle's three-sided cylinder turns by 60 degrees
 
 
+def test_every_side_of_a_cone_leads_to_its_tip():
+    mesh = shapes.cone(0.5, 2.0, 12)
+    sides = mesh.vertices[mesh.faces[:12]].astype(float)
+    np.testing.assert_allclose(sides[:, 2], np.tile([0, 1, 0], (12, 1)), atol=1e-7)
+    np.testing.assert_allclose(np.hypot(sides[:, :2, 0], sides[:, :2, 2]), 0.5, atol=1e-7)
+
+
 def test_torus_normals_are_those_of_the_surface():
     mesh = shapes.torus(1.0, 0.25, 32, 16)
     p = mesh.vertices.astype(float)
@@ -61,8 +69,9 @@ def test_torus_normals_are_those_of_the_surface():
     np.testing.assert_allclose(mesh.normals, (p - ring) / 0.25, atol=1e-6)
 
 
-@pytest.mark.parametrize("mesh", [shapes.rectangle(2, 3), shapes.disk(1.0, 12)])
-def test_flat_shapes_face_up(mesh):
+@pytest.mark.parametrize("make", [lambda: shapes.rectangle(2, 3), lambda: shapes.disk(1.0, 12)])
+def test_flat_shapes_face_up(make):
+    mesh = make()
     g = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
     assert (g[:, 1] > 0).all()
     np.testing.assert_allclose(g[:, [0, 2]], 0, atol=1e-12)
