@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from looked_at import SIZE, cameras
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
-from lucida.app.instruments.outside.diagram import Arrow, Label, RayEnd, Segments
+from lucida.app.instruments.outside.diagram import Arrow, Dot, Label, RayEnd, Segments
 from lucida.app.instruments.outside.growing import (
     STAGES,
     Term,
@@ -95,6 +95,11 @@ def _names(position: float | None, camera: Camera = CAMERA) -> set[tuple[type, s
     options = OutsideOptions(formula=position)
     items = grown_diagram(Content(camera, SIZE, options, 9.0, marked=RayEnd((5, 50), 2.0)))
     return {(type(item), item.name) for item in items}
+
+
+def test_a_hit_is_drawn_once_the_ray_has_reached_it() -> None:
+    assert (Dot, "hit") not in _names(5.5)
+    assert (Dot, "hit") in _names(6.0)
 
 
 def test_the_ray_comes_last_and_nothing_is_missing_at_the_end() -> None:

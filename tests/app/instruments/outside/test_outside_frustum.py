@@ -12,7 +12,12 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from looked_at import LOOKING, SIZE, cameras, vectors
 
-from lucida.app.instruments.outside.extent import end_parameter, framed, outside_camera
+from lucida.app.instruments.outside.extent import (
+    end_parameter,
+    framed,
+    looked_from,
+    outside_camera,
+)
 from lucida.app.instruments.outside.frustum import (
     MOST_GRID_LINES,
     border,
@@ -102,6 +107,18 @@ class TestTheCameraThatLooks:
         assert (parameter > 0).all()
         assert (np.abs(row - 499.5) <= 500.5).all()
         assert (np.abs(column - 499.5) <= 500.5).all()
+
+    @pytest.mark.parametrize(
+        ("back", "level"), [((0.6, 0.5, 0.8), (0.6, 0.8)), ((0.01, 1.0, 0.0), (1.0, 0.0))]
+    )
+    def test_looks_from_the_right_from_above_and_from_behind(
+        self, back: tuple[float, ...], level: tuple[float, float]
+    ) -> None:
+        """Above a camera that looks straight down, behind is along x."""
+        x, z = level
+        way = np.array([1.25 * x + 0.75 * z, 0.5, 1.25 * z - 0.75 * x])
+        found = looked_from(np.array([0.0, 1.0, 0.0]), np.array(back))
+        assert np.allclose(found, way / np.linalg.norm(way))
 
     def test_is_as_near_as_it_can_be(self) -> None:
         points = np.array([[x, y, z] for x in (-1, 1) for y in (-2, 2) for z in (-3, 3)], float)

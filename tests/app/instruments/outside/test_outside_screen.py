@@ -30,6 +30,13 @@ class TestScreen:
             assert np.allclose(at, (column + 0.5, row + 0.5))
             assert np.isclose(depth, parameter if camera.is_parallel else 1 / parameter)
 
+    @pytest.mark.parametrize("projection", ["perspective", "parallel"])
+    def test_the_way_to_the_viewer_is_a_unit_vector(self, projection: Any) -> None:
+        camera = Camera(eye=(0, 0, 5), w=(0, 0, 2), projection=projection)
+        screen = OutsideScreen(camera, SIZE)
+        assert np.allclose(screen.toward_viewer(np.array([0.0, 0.0, -3.0])), (0, 0, 1))
+        assert np.allclose(screen.toward_viewer(np.array([0.0, 0.0, 5.0])), (0, 0, 1))
+
     @given(cameras(), st.lists(st.tuples(vectors, vectors), min_size=1, max_size=10))
     def test_segments_are_cut_to_the_guard(self, camera: Camera, ends: list[Any]) -> None:
         screen = OutsideScreen(camera, SIZE, 1e-3)

@@ -36,6 +36,14 @@ def test_a_free_label_is_where_its_point_wants_it() -> None:
     assert (x, y) == (200 + BOX.room + BOX.width / 2, 150)
 
 
+def test_a_free_label_of_a_line_stands_beside_its_middle_on_the_side_that_it_is_to() -> None:
+    way = np.array([(100.0, 150.0), (300.0, 150.0)])
+    for side in (-1.0, 1.0):
+        label = Text("length", "text", "length", (200, 150), (0.0, side), False, line=way)
+        ((x, y),) = LabelPlacer().place([label], (BOX,), SIZE)
+        assert x == 200 and (y - 150) * side > BOX.height / 2
+
+
 def test_labels_of_one_point_a_line_a_mark_and_the_edge_do_not_meet() -> None:
     marks: list[Primitive] = [line((180, 160), (180, 160), 12.0), line((0, 100), (400, 200))]
     texts = [text(name, (180, 146)) for name in "abcd"] + [text("e", (395, 290))]

@@ -60,6 +60,8 @@ def test_a_ray_to_a_point_passes_the_image_plane_where_the_point_is_seen(project
     seen, there = camera.project(dot.point, SIZE), camera.project(np.array(point), SIZE)
     assert (seen.row, seen.column) == pytest.approx((there.row, there.column))
     assert dot.point[2] == pytest.approx(0.0 if camera.is_parallel else -1.0)
+    (after,) = (one for one in items if isinstance(one, Segments) and one.name == "rays")
+    assert np.allclose(after.segments, [[dot.point, point]])
     assert not any(isinstance(one, Dot) for one in rays_to(camera, [point], 0.5, 5.0))
 
 
