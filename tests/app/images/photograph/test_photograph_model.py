@@ -52,6 +52,10 @@ def test_it_keeps_its_shape_in_the_middle_of_the_viewport(own, shape):
     assert letterboxed(WHOLE, shape, (0, 0)) == WHOLE
 
 
+def test_a_shape_that_differs_by_rounding_alone_has_no_bars():
+    assert letterboxed(WHOLE, (640, 480), (641, 480)) == WHOLE
+
+
 def test_a_photograph_comes_into_the_state_and_goes():
     state = AppState.for_scene(load_scene("still-life"))
     assert path_of(state) is None
