@@ -124,12 +124,13 @@ def test_what_lies_behind_the_first_eye_is_not_seen_while_the_eye_draws_back() -
         assert between.eye[2] - between.near == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("z", [1.5, 5.0])
-def test_between_the_projections_a_focus_behind_the_eye_is_the_middle_of_the_image_plane(z) -> None:
-    camera = Camera(eye=(0.0, 0.0, 1.0))
-    ends = View(camera), View(replace(camera, projection="parallel"))
-    wanted = Passage(*ends, (0, 0, 0), SIZE).at(0.5)
-    assert Passage(*ends, (0, 0, z), SIZE).at(0.5) == wanted
+@pytest.mark.parametrize("behind", [0.5, 5.0])
+def test_between_the_projections_a_focus_behind_the_eye_is_one_on_the_image_plane(behind) -> None:
+    camera = Camera.look_at((0.0, 3.0, 4.0), (0, 0, 0))
+    ends = View(camera), View(Camera(projection="parallel"))
+    eye, w = np.asarray(camera.eye), np.asarray(camera.w)
+    wanted = Passage(*ends, eye - camera.distance * w, SIZE).at(0.5)
+    assert Passage(*ends, eye + behind * w, SIZE).at(0.5) == wanted
     assert wanted.camera not in (ends[0].camera, ends[1].camera)
 
 

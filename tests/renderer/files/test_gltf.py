@@ -97,6 +97,12 @@ def test_what_would_move_a_mesh_is_said(tmp_path: Path) -> None:
     assert note.endswith("t.gltf: shapes: not shown: skins, morph targets, animations")
 
 
+def test_colours_beyond_full_reflection_are_cut_to_it(tmp_path: Path) -> None:
+    pbr = {"baseColorFactor": [2.0, -1.0, 0.5, 1.0]}
+    (material,) = materials_of(tmp_path, {"pbrMetallicRoughness": pbr | {"metallicFactor": 0}})
+    assert material.diffuse == (1.0, 0.0, 0.5)
+
+
 @pytest.mark.parametrize(("cutoff", "alpha", "gone"), [(0.5, 0.4, True), (0.5, 0.6, False)])
 def test_a_gltf_mask_without_an_image_is_a_hole_or_none(
     cutoff: float, alpha: float, gone: bool, tmp_path: Path

@@ -104,6 +104,8 @@ def test_the_images_of_a_model_are_counted_together_and_each_once(monkeypatch) -
     assert not shown("c", 6) and not shown("c", 1)  # refused once: it stays so
     assert len(images.notes) == 1 and "all images together have more than" in images.notes[0]
     assert shown("d", 5) and not shown("e", 2)  # what was refused is not counted
+    monkeypatch.setattr("lucida.renderer.files.texture_images.TEXTURES", 5)
+    assert not shown("f", 0) and "there are more than 5" in images.notes[1]
 
 
 def test_an_image_of_floating_point_numbers_is_refused() -> None:

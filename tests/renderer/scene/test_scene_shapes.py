@@ -58,6 +58,11 @@ def test_every_side_of_a_cone_leads_to_its_tip():
     sides = mesh.vertices[mesh.faces[:12]].astype(float)
     np.testing.assert_allclose(sides[:, 2], np.tile([0, 1, 0], (12, 1)), atol=1e-7)
     np.testing.assert_allclose(np.hypot(sides[:, :2, 0], sides[:, :2, 2]), 0.5, atol=1e-7)
+    left, right, tip = np.moveaxis(mesh.normals[mesh.faces[:12]].astype(float), 1, 0)
+    middle = (left + right) * (1, 0, 1)
+    level = tip * (1, 0, 1)
+    np.testing.assert_allclose(np.cross(middle, level), 0, atol=1e-6)
+    assert ((middle * level).sum(axis=1) > 0).all()
 
 
 def test_torus_normals_are_those_of_the_surface():

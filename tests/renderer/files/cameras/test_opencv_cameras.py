@@ -9,7 +9,10 @@ import pytest
 from format_cameras import assert_same_pixels, pasted
 
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lenses import Lens
+from lucida.renderer.files.cameras.distortion import NAMES
 from lucida.renderer.files.cameras.given import Options
+from lucida.renderer.files.cameras.opencv_keys import lens_table
 from lucida.renderer.files.cameras.rotations import from_vector
 from lucida.renderer.system.errors import LucidaError
 
@@ -191,6 +194,17 @@ def test_what_is_pasted_as_it_is_printed(text: str) -> None:
     found = pasted(text)
     assert found.format == "opencv"
     assert_same_pixels(AT_POSE, found.cameras[0].camera, (640, 480))
+
+
+LENGTHS = {"k1": 5, "k3": 5, "k4": 8, "k6": 8, "s1": 12}  # by the last coefficient
+
+
+@pytest.mark.parametrize(("last", "length"), LENGTHS.items())
+def test_a_lens_is_written_with_a_length_that_opencv_takes(last: str, length: int) -> None:
+    table = lens_table(Lens("brown", {last: 0.01}))
+    written = np.asarray(table["distortion_coefficients"]).ravel()
+    assert len(written) == length and written[NAMES.index(last)] == 0.01
+    assert np.count_nonzero(written) == 1
 
 
 def test_a_size_that_is_not_given_is_told() -> None:
