@@ -25,7 +25,8 @@ STREAMS = ("stdin", "stdout", "stderr")
 
 
 def environment(folder: Path, display: str | None = None) -> dict[str, str]:
-    """No display unless one is given, and no settings of whoever runs the tests."""
+    """Return variables without a display unless one is given, and without the settings of whoever
+    runs the tests."""
     variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     variables |= {"XDG_CONFIG_HOME": str(folder / "config"), "PYTHONPATH": PATH}
     return variables | ({"DISPLAY": display} if display else {})
@@ -39,7 +40,10 @@ def launch(
     fresh: bool = False,
 ) -> subprocess.CompletedProcess[str]:
     """Run Python in a folder, with `-c SCRIPT`, `-m lucida` or a script's name, and more arguments.
-    Return its end: after limit_s, that by SIGALRM. fresh: it has imported nothing."""
+
+    Return the process once it has ended; SIGALRM ends one that takes longer than limit_s. fresh:
+    True for a process that begins with no module imported.
+    """
     variables = environment(folder, display)
     if fresh or not sys.platform.startswith("linux"):  # elsewhere, a library may not be forked
         command = [sys.executable, *arguments]
@@ -65,7 +69,7 @@ def launch(
 
 @functools.cache
 def _server() -> subprocess.Popen[str]:
-    """Return the process that the others are forked from; it ends with this one."""
+    """Return the process from which the others are forked. It ends with this one."""
     variables = os.environ | {"PYTHONPATH": PATH, "OPENBLAS_NUM_THREADS": "1"}
     server = subprocess.Popen(
         [sys.executable, "-P", __file__],
