@@ -7,7 +7,7 @@ and exercises, controls.py the foot; model.py defines a step, step_options.py it
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -98,10 +98,12 @@ class LectureView(Instrument):
         self.session = LectureSession(lecture, path, at, left)
         self._entered, self._put_off = False, None
 
-    def resume(self, session: LectureSession) -> None:
-        """Continue a lecture in the window's current state and views."""
-        self.session, self._before = session, None
-        self._entered = self._arranged = True
+    def resume(self, session: LectureSession, shown: Collection[str]) -> None:
+        """Continue a lecture in the window's current state and views, the names `shown`. If these
+        are the step's, they go to their places again.
+        """
+        self.session, self._before, self._entered = session, None, True
+        self._arranged = {LECTURE, *map(str.capitalize, session.step.views)} != {*shown}
 
     def take_begun(self) -> bool:
         """Return True if a lecture was begun since the last call."""

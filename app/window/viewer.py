@@ -136,10 +136,12 @@ class WindowRun:
         return 0
 
     def _take(self, start: Start) -> None:
+        shown: tuple[str, ...] = ()
         if start.session is not None:
+            shown = start.session.arrangement.visible
             self.window.shell.stage.restore(start.session.arrangement)
         if start.lecture is not None:
-            self.window.lecture.resume(start.lecture)
+            self.window.lecture.resume(start.lecture, shown)
         elif start.session is not None and start.session.lecture is not None:
             self.window.lecture.put_off(start.session.lecture, source_of(start.state.scene))
         self.window.files.message = start.message
