@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import wraps
 
 from window_driver import Driver
 
@@ -56,6 +57,17 @@ def untraced(d: Driver) -> Iterator[None]:
         yield
     finally:
         del live.request, d.settle
+
+
+def untraced_drive(drive: Callable[[Driver], None]) -> Callable[[Driver], None]:
+    """Decorate a drive in which nobody looks at a traced image."""
+
+    @wraps(drive)
+    def untraced_throughout(d: Driver) -> None:
+        with untraced(d):
+            drive(d)
+
+    return untraced_throughout
 
 
 def shown(d: Driver) -> set[str]:

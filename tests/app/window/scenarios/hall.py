@@ -4,7 +4,7 @@ from contextlib import contextmanager
 
 from capitals import capital_heights
 from imgui_bundle import imgui
-from lecture_window import untraced
+from lecture_window import untraced, untraced_drive
 from views_in_turn import views_in_turn
 from window_driver import Key
 
@@ -77,20 +77,20 @@ def below(heights, least):
     return {height: letters for height, letters in heights.items() if height < least}
 
 
+@untraced_drive
 def drive_the_lecture_ends(d):
-    with untraced(d):
-        """The scene and the camera from before the lecture come back."""
-        camera, scene = d.state.camera, d.state.scene
-        d.window.lecture.give(load_lecture(BUILTIN), BUILTIN, (26, 0))  # an image of 8 x 8 pixels
-        d.until(lambda: d.state.camera != camera and not d.window.lecture.is_entering)
-        d.frames(3)
-        d.ctx.mouse_move_to_pos((300, 300))
-        d.click("//##stage menu/Menu")
-        d.ctx.menu_click("//$FOCUSED/Lecture/End the lecture")
-        d.settle()
-        state = d.state
-        assert not d.window.lecture.is_given and state.step is None
-        assert (state.scene, state.camera) == (scene, camera)
-        assert state.images.resolution is None and not state.preferences.presentation
-        shown = {view.name for view in d.stage.shown}
-        assert {"Camera", "Raster", "Ray"} <= shown and LECTURE not in shown
+    """The scene and the camera from before the lecture come back."""
+    camera, scene = d.state.camera, d.state.scene
+    d.window.lecture.give(load_lecture(BUILTIN), BUILTIN, (26, 0))  # an image of 8 x 8 pixels
+    d.until(lambda: d.state.camera != camera and not d.window.lecture.is_entering)
+    d.frames(3)
+    d.ctx.mouse_move_to_pos((300, 300))
+    d.click("//##stage menu/Menu")
+    d.ctx.menu_click("//$FOCUSED/Lecture/End the lecture")
+    d.settle()
+    state = d.state
+    assert not d.window.lecture.is_given and state.step is None
+    assert (state.scene, state.camera) == (scene, camera)
+    assert state.images.resolution is None and not state.preferences.presentation
+    shown = {view.name for view in d.stage.shown}
+    assert {"Camera", "Raster", "Ray"} <= shown and LECTURE not in shown

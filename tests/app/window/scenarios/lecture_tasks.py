@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 from both_lectures import both_lectures
-from lecture_window import answer, item, lecture_of, untraced
+from lecture_window import answer, item, lecture_of, untraced_drive
 from objects_window import handle_px
 from outside_window import place
 from window_driver import Key, changed
@@ -16,12 +16,8 @@ from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.renderer.editing.moving import bounds_of
 
 
+@untraced_drive
 def drive_exercises_say_what_is_right_and_wrong(d):
-    with untraced(d):
-        _answer(d)
-
-
-def _answer(d):
     lecture = both_lectures()
     titles = [step.title for step in lecture.steps]
     lecture_of(d).give(lecture, BUILTIN, (titles.index("Exercise: a pixel's ray"), 0))

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 from imgui_bundle import hello_imgui, imgui
-from lecture_window import untraced
+from lecture_window import untraced, untraced_drive
 from option_changes import with_options
 from window_driver import Key
 
@@ -112,38 +112,36 @@ def drive_a_step_does_not_depend_on_the_way(d):
     _leave(d)
 
 
+@untraced_drive
 def drive_the_stage_has_pictures_and_text_alone(d):
-    with untraced(d):
-        before = layout.LAYOUTS[1].name
-        d.layout(before)
-        lecture = _begin(d)
-        bars = hello_imgui.get_runner_params().imgui_window_params
+    before = layout.LAYOUTS[1].name
+    d.layout(before)
+    lecture = _begin(d)
+    bars = hello_imgui.get_runner_params().imgui_window_params
 
-        def is_bare():
-            return not (bars.show_menu_bar or bars.show_status_bar or d.window.has_tools)
+    def is_bare():
+        return not (bars.show_menu_bar or bars.show_status_bar or d.window.has_tools)
 
-        d.ctx.mouse_teleport_to_pos((200, 200))
-        d.until(lambda: not lecture.shows_controls)
-        assert is_bare() and d.window.on_stage
-        d.settle()
-        rects = _rects(d)
-        assert rects["Raster"][1] < 3 and rects["Raster"][3] > imgui.get_io().display_size.y - 3
-        resting = d.picture()
-        d.ctx.mouse_move_to_pos((210, 210))
-        assert lecture.shows_controls
-        d.stay = True
-        assert (
-            np.abs(d.picture().astype(int) - resting).max() > 30
-        )  # the foot and the menu's button
-        assert _rects(d)["Raster"] == rects["Raster"]  # the image stays where it is
-        d.change(marked=(1, 1))
-        d.press(Key.escape)  # leaves the stage, and the mark: on its point, in another image size
-        assert bars.show_menu_bar and d.window.has_tools and d.state.marked is not None
-        d.press(Key.f9)
-        assert is_bare()
-        for key in (Key._1, Key._2, Key.enter):
-            d.press(key)
-        assert lecture.session.number == 11
-        _rest(d)
-        _leave(d)
-        assert layout.current().name == before and bars.show_menu_bar
+    d.ctx.mouse_teleport_to_pos((200, 200))
+    d.until(lambda: not lecture.shows_controls)
+    assert is_bare() and d.window.on_stage
+    d.settle()
+    rects = _rects(d)
+    assert rects["Raster"][1] < 3 and rects["Raster"][3] > imgui.get_io().display_size.y - 3
+    resting = d.picture()
+    d.ctx.mouse_move_to_pos((210, 210))
+    assert lecture.shows_controls
+    d.stay = True
+    assert np.abs(d.picture().astype(int) - resting).max() > 30  # the foot and the menu's button
+    assert _rects(d)["Raster"] == rects["Raster"]  # the image stays where it is
+    d.change(marked=(1, 1))
+    d.press(Key.escape)  # leaves the stage, and the mark: on its point, in another image size
+    assert bars.show_menu_bar and d.window.has_tools and d.state.marked is not None
+    d.press(Key.f9)
+    assert is_bare()
+    for key in (Key._1, Key._2, Key.enter):
+        d.press(key)
+    assert lecture.session.number == 11
+    _rest(d)
+    _leave(d)
+    assert layout.current().name == before and bars.show_menu_bar
