@@ -112,7 +112,7 @@ def draw_figure(
     state = with_resolution(state, (width // 2 if choice.what == "pair" else width, height))
     state = state.with_options(replace(state.options, marked=marked))
     run = WindowRun(start_platform(want_display=False), state, None, take_picture=True)
-    run.take_picture = False
+    run.ends_once_complete = False
     window, frames, quiet, content = run.window, 0, 0, b""
 
     def drawn(_: Target) -> None:

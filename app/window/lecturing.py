@@ -164,7 +164,7 @@ def _draw_builds(
     if for_print:
         state = _for_still(state, lecture.builds[0], "light")
     run = WindowRun(platform, state, size, take_picture=True)
-    run.take_picture = False  # each build is a picture, not only the last
+    run.ends_once_complete = False  # each build is a picture, not only the last
     window = run.window
     window.for_print = for_print
     window.lecture.give(lecture, path)

@@ -92,7 +92,8 @@ class WindowRun:
         self._focusing = Focusing()
         self._focus_frame = FocusFrame()
         self.on_drawn: Callable[[Target], None] | None = None  # called for each visible frame
-        self.take_picture = take_picture
+        self._take_picture = take_picture
+        self.ends_once_complete = take_picture
         self._error: BaseException | None = None
         self._quiet_frames = 0
         self._told = compile_note.note()
@@ -179,9 +180,9 @@ class WindowRun:
         params.imgui_window_params.remember_status_bar_settings = False
         # Text and images need no multisampling, which would cost more than everything else.
         params.renderer_backend_options.open_gl_options.anti_aliasing_samples = 0
-        params.fps_idling.fps_idle = 0.0 if self.take_picture else IDLE_FPS
-        params.fps_idling.enable_idling = not self.take_picture
-        if not (self._platform.has_display or self.take_picture):  # nothing else paces frames
+        params.fps_idling.fps_idle = 0.0 if self._take_picture else IDLE_FPS
+        params.fps_idling.enable_idling = not self._take_picture
+        if not (self._platform.has_display or self._take_picture):  # nothing else paces frames
             params.fps_idling.fps_max = NULL_FPS
         params.fps_idling.time_active_after_last_event = 1.0
         params.docking_params, *params.alternative_docking_layouts = layout.docking(
@@ -286,13 +287,21 @@ class WindowRun:
         if not self._platform.has_display:
             flush_opengl()
         self._memory.follow(self.window.settled)
-        if not self.take_picture:
+        if not self._take_picture:
             # A saved program must run at once.
             busy = self.window.renderers.busy or self.window.view(YourCode).seen
             self.params.fps_idling.fps_idle = WAITING_FPS if busy else IDLE_FPS
             return
         self._tell_compiling()
         self.window.check()
+        if self.ends_once_complete:
+            self._end_once_complete()
+        if self.window.renderers.busy and not (self._canvas is None or self._canvas.keeps):
+            # The images have their final size. Further invisible frames would slow them down.
+            self.window.news.wait(PICTURE_WAIT_S)
+            self.window.news.clear()
+
+    def _end_once_complete(self) -> None:
         # The layout needs two frames; afterwards nothing may change.
         self._quiet_frames = self._quiet_frames + 1 if self.window.settled else 0
         if self._quiet_frames > 3:
@@ -303,10 +312,6 @@ class WindowRun:
                 f"the images were not complete after {SCREENSHOT_LIMIT_S:g} s",
                 "try a smaller model or --size",
             )
-        elif self.window.renderers.busy and not (self._canvas is None or self._canvas.keeps):
-            # The images have their final size. Further invisible frames would slow them down.
-            self.window.news.wait(PICTURE_WAIT_S)
-            self.window.news.clear()
 
 
 def _configure() -> None:
