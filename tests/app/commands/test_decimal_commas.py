@@ -13,8 +13,7 @@ from lucida.renderer.system.errors import LucidaError
 from tests.support.refusals import refused
 
 COMMANDS = (
-    "render still-life -o raster.npy --size 8x6",
-    "render still-life -o ray.npy --size 8x6 --renderer ray --fov 40.5",
+    "render still-life -o image.npy --size 8x6 --fov 40.5",
     "export spheres -o scene.glb",
     "camera view.toml --to opencv -o camera.yml --size 8x6",
     "camera camera.yml --to gltf -o camera.gltf",

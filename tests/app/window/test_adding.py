@@ -67,7 +67,7 @@ def test_the_documents_instrument_opens_in_the_window(tmp_path):
     assert sum(code.count("\n") for _, code in files) + 2 <= MOST_LINES
 
     copy = tmp_path / "copy"
-    shutil.copytree(ROOT / "app", copy / "app", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(ROOT / "app", copy / "app")
     (copy / "shaders").symlink_to(ROOT / "shaders")
     (copy / "lucida").mkdir()  # without links, as Git for Windows makes it
     shutil.copy(ROOT / "lucida" / "__init__.py", copy / "lucida")
