@@ -7,12 +7,14 @@ import io
 import math
 import re
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+from sketched import sketched
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Item, Label, RayEnd, Segments
@@ -24,6 +26,7 @@ from lucida.app.instruments.outside.figure import (
     with_picture,
 )
 from lucida.app.instruments.outside.frustum import pixel_corners, plane_corners
+from lucida.app.instruments.outside.growing import grown_diagram
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
 from lucida.app.instruments.outside.svg import svg
@@ -221,3 +224,49 @@ def test_pixels_show_the_same_parts_over_the_ground(ground: Any) -> None:
     assert abs(across.min() - start) < 4
     assert abs(across.max() - end) < 4
     assert (rows < SIZE[1] / 2 - 10).any()  # the letters
+
+
+# The diagrams, figures and files of these options, as recorded on 2026-11-30. If one changes on
+# purpose, look at it in the window and record the number that the failure names.
+SKETCHES = {
+    "all rays": 1489233.18,
+    "the camera's plane": 1377060.91,
+    "the growing formula": 3395976.12,
+    "the whole formula": 3821035.96,
+    "to parallel": 3554482.07,
+    "the line": 1132655.42,
+    "the half line": 1537343.38,
+    "the simple camera": 1883228.01,
+    "a basis from a target": 1640033.93,
+    "points": 1990261.24,
+}
+OPTIONS = {
+    "all rays": OutsideOptions(),
+    "the camera's plane": OutsideOptions(pixels=True, volume=False, basis=False, image_opacity=0.4),
+    "the growing formula": OutsideOptions(formula=3.5, numbers=True),
+    "the whole formula": OutsideOptions(formula=9.0),
+    "to parallel": OutsideOptions(formula=6.0, to_parallel=0.4),
+    "the line": OutsideOptions(half_line=2.5, meetings=0.5),
+    "the half line": OutsideOptions(half_line=4.0, meetings=2.0),
+    "the simple camera": OutsideOptions(simple=4.5),
+    "a basis from a target": OutsideOptions(target=(0.5, 0.1, -1.0), basis_grown=2.5),
+    "points": OutsideOptions(points=((0.2, 0.1, -1.0), (-0.5, 0.3, -2.0)), points_grown=1.5),
+}
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_a_diagram_and_its_file_are_drawn_as_recorded(name: str) -> None:
+    found: list[Any] = []
+    for camera in (CAMERA, replace(CAMERA, projection="parallel")):
+        hits = [RayEnd((20, 30), 2.5), RayEnd((200, 250), 3.0)]
+        content = Content(
+            camera, SIZE, OPTIONS[name], 4.0, hits, RayEnd((100, 120), 2.0), 8, 0, "corner",
+            number_step=2, meetings=(-1.0, 2.0, 3.0),
+        )  # fmt: skip
+        items = diagram(content)
+        if content.options.formula is not None:
+            items += grown_diagram(content)
+        figure = drawn(items)
+        words = re.split(r"(-?\d+\.?\d*)", svg(figure))
+        found += items, figure, words[::2], [float(one) for one in words[1::2]]
+    assert sketched(found) == pytest.approx(SKETCHES[name], abs=0.05)
