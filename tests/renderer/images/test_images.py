@@ -22,7 +22,7 @@ from lucida.renderer.images import (
     write_picture,
 )
 from lucida.renderer.images.frame import Frame, check_size
-from lucida.renderer.images.png import png_of
+from lucida.renderer.images.png import write_png
 from lucida.renderer.images.samples import supersampled
 from lucida.renderer.system.errors import LucidaError
 
@@ -304,10 +304,8 @@ def test_colour_is_the_mean_of_the_samples_and_the_rest_is_the_centre_s(samples)
     assert depth.color is None and (depth.depth == light(camera)).all()
 
 
-@pytest.mark.parametrize("shape", [(5, 13), (5, 13, 3), (5, 13, 4)])
-def test_a_png_file_holds_every_pixel_of_gray_colour_and_transparency(shape):
-    picture = np.random.default_rng(1).integers(0, 256, shape, np.uint8)
-    assert (np.asarray(Image.open(io.BytesIO(png_of(picture)))) == picture).all()
-    bits = picture > 127
-    if bits.ndim == 2:
-        assert (np.asarray(Image.open(io.BytesIO(png_of(bits)))) == bits).all()
+def test_a_png_file_of_bits_holds_every_one():
+    bits = np.random.default_rng(1).random((5, 13)) > 0.5
+    file = io.BytesIO()
+    write_png(file, bits)
+    assert (np.asarray(Image.open(file)) == bits).all()

@@ -238,6 +238,7 @@ SKETCHES = {
     "the half line": 2399751.63,
     "the simple camera": 2911827.87,
     "a basis from a target": 2570160.07,
+    "a whole basis": 2533199.32,
     "points": 3046708.84,
 }
 OPTIONS = {
@@ -250,6 +251,7 @@ OPTIONS = {
     "the half line": OutsideOptions(half_line=4.0, meetings=2.0),
     "the simple camera": OutsideOptions(simple=4.5),
     "a basis from a target": OutsideOptions(target=(0.5, 0.1, -1.0), basis_grown=2.5),
+    "a whole basis": OutsideOptions(target=(0.5, 0.1, -1.0), volume=False, grid=False),
     "points": OutsideOptions(points=((0.2, 0.1, -1.0), (-0.5, 0.3, -2.0)), points_grown=1.5),
 }
 

@@ -115,7 +115,7 @@ def test_the_outside_view_s_parts_are_told(options, said):
     assert said in told("outside", outside=options)
 
 
-def test_a_ray_outside_is_told_once_it_is_marked_and_in_the_stepper_once_it_is_traced():
+def test_a_ray_is_told_outside_once_it_is_marked_and_drawn():
     ray = "the marked pixel's ray"
     assert ray in told("outside", marked=(1, 1)) and ray not in told("outside")
     assert ray not in told("outside", marked=(1, 1), outside={"ray": False})
