@@ -80,18 +80,6 @@ def test_the_marked_pixel_is_told_with_its_ray(pixel, camera, said):
     assert said in text if said else "is marked" not in text
 
 
-def test_effects_channels_and_overlays_are_told_where_there_are_some():
-    plain = told()
-    for options, said in (
-        ({"shadows": True}, "With shadows."),
-        ({"shadows": True, "mirrors": True}, "With shadows and mirrors."),
-        ({"pair": {"vanishing": True}}, "are drawn to where they meet."),
-        ({"pair": {"straight_lines": True}}, "A grid of straight lines around the eye"),
-        ({"pair": {"footprint": True}}, "is the mean of 1 samples"),
-    ):
-        assert said in told(**options) and said not in plain
-
-
 @pytest.mark.parametrize(
     ("options", "said"),
     [
