@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pytest
 
 from lucida.app.instruments.outside.placing import Box, LabelPlacer
 from lucida.app.instruments.outside.projected import Primitive, Strokes, Text
@@ -67,3 +68,12 @@ def test_labels_move_with_what_they_name_and_do_not_jump() -> None:
             jumps += math.dist(at, before) > 12
         before = at
     assert jumps <= 3
+
+
+@pytest.mark.parametrize("side", [(0.0, -1.0), (-1.0, 0.0), (0.0, 1.0), (1.0, 0.0)])
+def test_a_label_at_an_edge_is_as_far_inside_as_it_needs_room(side: tuple[float, float]) -> None:
+    middle, reach = np.array(SIZE) / 2, np.array(SIZE) / 2 - 1
+    at = tuple((middle + reach * side).tolist())
+    (found,) = LabelPlacer().place([text("edge", at, side)], (BOX,), SIZE)
+    assert (corners(found) >= 0).all() and (corners(found) <= SIZE).all()
+    assert math.dist(found, at) < 2 * BOX.room + BOX.width
