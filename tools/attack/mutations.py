@@ -12,6 +12,7 @@ itself), so what counts is the share that is noticed. Needs fork.
 from __future__ import annotations
 
 import argparse
+import functools
 import gc
 import importlib
 import math
@@ -47,6 +48,8 @@ NO_MUTANTS = ("imgui_bundle", "moderngl", "numba")  # a window, a driver, machin
 # Tests of windows, of other processes and of installations: they take minutes.
 SLOW = ("/window/", "checking/running", "/test_wheel", "/test_isolation")
 NOTICED, TRIED = 0.8, 20  # the share that must be noticed, once so many were tried
+CACHE = type(functools.cache(len))
+FORGOTTEN = ("tests", "lucida/app", "lucida/renderer/camera")  # whose caches are emptied
 ARGUMENTS = ("-x", "-q", "-p", "no:cacheprovider", "-W", "ignore:Module already imported")
 MEMORY_BYTES = 16 << 30
 BASELINE_S, LEAST_S, LONGEST_S = 600.0, 5.0, 10.0  # limits; tests that take longer are left out
@@ -123,7 +126,9 @@ def try_all(room: str, chosen: list[Mutant], end_s: float) -> dict[str, Any]:
     nothing = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nothing, 1)
     os.dup2(nothing, 2)
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
+    resource.setrlimit(
+        resource.RLIMIT_DATA, (MEMORY_BYTES, MEMORY_BYTES)
+    )  # a browser reserves more
     plugin = _Plugin(chosen, out, end_s)
     status = pytest.main([*ARGUMENTS, f"--rootdir={ROOT}", *tests_of(room)], plugins=[plugin])
     return plugin.found or {"error": f"pytest ends with {int(status)}"}
@@ -160,14 +165,18 @@ class _Plugin:
         # A module may be imported only when it is used, which here is in the forks.
         for module in {mutant.module for mutant in self._chosen}:
             importlib.import_module(module.removesuffix(".py").replace("/", "."))
-        answer = forked(lambda: self._baseline(items), BASELINE_S)
+        gc.unfreeze()  # the tests' imports end with a freeze: nothing would be found
+        objects = gc.get_objects()
+        functions = [one for one in objects if isinstance(one, FunctionType)]
+        caches = [one for one in objects if _is_cache_of_ours(one)]
+        del objects
+        gc.freeze()  # what is not looked through in a fork is not copied for it
+        _forget(caches)  # what the tests' imports computed comes from no mutant
+        answer = forked(lambda: self._baseline(items, caches), BASELINE_S)
         if answer is None or self._failed or answer["failed"]:
             self.found = {"error": (answer or {}).get("failed") or "no result"}
             return True
         lengths, reached = answer["lengths"], answer["reached"]
-        gc.unfreeze()  # the tests' imports end with a freeze: nothing would be found
-        functions = [one for one in gc.get_objects() if isinstance(one, FunctionType)]
-        gc.freeze()  # what is not looked through in a fork is not copied for it
         if planted := self._missed(items, reached, functions):
             self.found = {"error": f"no test notices that {planted} fails: the attack sees nothing"}
             return True
@@ -214,8 +223,12 @@ class _Plugin:
 
         return name if forked(plant, BASELINE_S) == "" else ""
 
-    def _baseline(self, items: list[pytest.Item]) -> dict[str, Any]:
-        """Return of each test its seconds and the functions that it calls; and one that fails."""
+    def _baseline(self, items: list[pytest.Item], caches: list[Any]) -> dict[str, Any]:
+        """Return of each test its seconds and the functions that it calls; and one that fails.
+
+        Each test begins with empty caches: it calls a function, too, whose result an earlier one
+        has left there.
+        """
         names: dict[tuple[str, int], str] = {}
         for module in {mutant.module for mutant in self._chosen}:
             for name, lines in spans(ROOT, module).items():
@@ -230,6 +243,7 @@ class _Plugin:
         lengths, reached = {}, {}
         for item, after in _in_order(items):
             calls.clear()
+            _forget(caches)
             began_s = time.perf_counter()
             threading.setprofile(look)
             sys.setprofile(look)
@@ -252,6 +266,19 @@ class _Plugin:
             if self._failed:
                 return self._failed
         return ""
+
+
+def _is_cache_of_ours(one: Any) -> bool:
+    """Return True for a functools.cache of the tests or the code; not of kernels and contexts."""
+    if not isinstance(one, CACHE):
+        return False
+    path = one.__wrapped__.__code__.co_filename if isinstance(one.__wrapped__, FunctionType) else ""
+    return path.startswith(tuple(f"{ROOT}/{folder}/" for folder in FORGOTTEN))
+
+
+def _forget(caches: list[Any]) -> None:
+    for one in caches:
+        one.cache_clear()
 
 
 def _failing(*_: Any, **__: Any) -> None:

@@ -115,9 +115,10 @@ def _document(run: Run, machine: dict, tables: list[report.Table]) -> None:
     peers = ", ".join(f"{name} {version}" for name, version in run.versions.items())
     parts = [
         f"`make bench` on {machine['cpu']}, {machine['processors']} processors, Python "
-        f"{machine['python']}, numba {machine['packages']['numba']}; beside {peers or 'no peers'}. "
-        "Each tracer in a process of its own, asked in turn, three calls after a pause of 20 ms. "
-        "Medians in ms; in brackets how many times as long as Lucida.",
+        f"{machine['python']}, numba {machine['packages']['numba']}; "
+        f"compared with {peers or 'none'}. Each tracer has its own process; they take turns, with "
+        "three calls after a pause of 20 ms. "
+        "Times are medians in ms; in brackets, relative to Lucida.",
         *(report.markdown(table) for table in tables if table.name != UNDOCUMENTED),
         report.markdown(report.losses(tables)),
         report.markdown(report.targets(tables)),

@@ -17,7 +17,7 @@ BEGIN, END = "<!-- conformance:begin -->", "<!-- conformance:end -->"
 
 WHAT = {
     "view": "Lucida's [view file](files.md#view-files), .toml",
-    "opencv": "K, R, t or rvec, lens: FileStorage .yml, .json and .xml, and what is listed below",
+    "opencv": "K, R, t or rvec, lens: FileStorage .yml, .json and .xml, and the formats below",
     "colmap": "cameras and images in a folder, .bin or .txt, with lenses; only read",
     "nerf": "transforms.json of NeRF, instant-ngp and nerfstudio, with lenses; only read",
     "gltf": "the cameras of a .gltf or .glb file at their nodes",
@@ -27,10 +27,10 @@ HEADER = ("format", "checked against", "cameras", "worst error", "bound")
 
 
 INTRO = """\
-`make conformance` made this table. In each direction (our file read by the real program, its own
-read by us) it takes at least {count} random cameras, off-axis and of any aspect ratio, skewed and
-parallel where the format has that, and {points} points each. An error is how far apart the two see
-a point, in pixels of images whose sides are up to {side}."""
+`make conformance` writes this table. In each direction (the other program reads Lucida's file, and
+Lucida reads the other program's) it compares at least {count} random cameras, off-axis and with any
+aspect ratio, skewed and parallel if the format permits, with {points} points each. The error is the
+distance between both images of a point, in pixels, in images of up to {side} pixels per side."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +98,7 @@ def page(outcomes: Sequence[Outcome], count: int) -> str:
         for part in o.checked.measured
         if part.beside
     ]
-    beside = ["", "Compared beside the pixels:", "", *others] if others else []
+    beside = ["", "Also compared:", "", *others] if others else []
     return "\n".join([*pipes(header, rows), "", intro, *beside])
 
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from lucida.app.checking.kinds import KINDS
+from lucida.app.checking.kinds.basis import conditioning
 from lucida.app.checking.kinds.hits import MARGIN
 from lucida.app.checking.kinds.shapes import hits
 from lucida.app.checking.task_file import BUILTIN
@@ -72,3 +73,11 @@ def test_what_is_asked_is_clear(name):
 def test_answers_that_are_missing_are_wrong(name):
     made = cases(name, 5)
     assert differ(name, made, []).all()
+
+
+def test_a_basis_is_as_exact_as_its_vectors_are_far_from_parallel_and_no_longer_ones_change_it():
+    eye, target, up = np.array([0.0, 0, 3]), np.zeros(3), np.array([0.0, 1, 0])
+    assert conditioning(eye, target, up) == pytest.approx(2)
+    assert conditioning(eye, target, (0, 0.5, 0.75**0.5)) == pytest.approx(4)
+    assert conditioning(10 * eye, target, 0.01 * up) == pytest.approx(2)
+    assert conditioning(3 * eye, 2 * eye, up) == pytest.approx(1 + 15 / 3)

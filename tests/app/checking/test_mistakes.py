@@ -125,3 +125,12 @@ def test_mistakes_that_hide_each_other_are_no_pair():
     assert (first, second) not in pairs
     for pair in pairs:
         assert program.source(pair) not in {program.source((alone,)) for alone in pair}
+
+
+def test_pairs_of_an_image_s_mistakes_have_one_in_its_loops():
+    task = next(task for task in BUILTIN if task.kind == "render")
+    program, rays = program_of(task), {line.key for line in program_of(BUILTIN[0]).lines}
+    assert program.paired and not program.paired & rays
+    pairs = list(program.pairs())
+    assert len(pairs) > 20
+    assert all(program.paired & (first.keys | second.keys) for first, second in pairs)

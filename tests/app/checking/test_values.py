@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from lucida.app.checking.kinds import KINDS
 from lucida.app.checking.kinds import kind as values
-from lucida.app.checking.kinds.hits import parameter
+from lucida.app.checking.kinds.hits import MISS, parameter
+from lucida.app.checking.task_file import BUILTIN
 
 numbers = st.floats(allow_nan=False) | st.integers(-(10**6), 10**6)
 triples = st.tuples(numbers, numbers, numbers).map(list)
@@ -78,3 +81,9 @@ def test_what_is_neither_hit_nor_miss_is_refused(value):
 def test_values_are_short_in_messages():
     told = values.text_of({"a": [1, -0.0, 0.1 + 0.2], "b": None, "c": True, "d": "x"})
     assert told == "{a: (1, 0, 0.3), b: None, c: True, d: 'x'}"
+
+
+@pytest.mark.parametrize("value", [None, [-1, math.inf], [0, None], [2, math.nan], [False, None]])
+def test_no_nearest_hit_is_read_in_every_form(value):
+    kind, task = KINDS["closest-hit"], next(one for one in BUILTIN if one.name == "closest-hit")
+    assert kind.read(task, kind.cases(replace(task, count=1))[0], value) == MISS

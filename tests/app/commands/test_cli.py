@@ -6,7 +6,7 @@ import os
 import re
 import subprocess
 import sys
-from argparse import ArgumentTypeError
+from argparse import ArgumentParser, ArgumentTypeError
 from pathlib import Path
 
 import pytest
@@ -140,6 +140,11 @@ class TestMistakes:
             ("compare spheres -o a.png --show signed", "--show: is no longer part of Lucida; `luc"),
             ("render spheres -o a.png --lens brown:k1", "'k1' has no value; give k1=0.1"),
             ("lecture --export x.gif", r"--export: the ending '\.gif' is unknown"),
+            *(
+                (f"{line} spheres", "required: -o/--output")
+                for line in ("render", "animate --orbit", "export", "figure", "page")
+            ),
+            ("animate spheres -o a.mp4", "one of the arguments --orbit --dolly-zoom --path is req"),
             ("pick spheres", "required: ROW, COLUMN; see 'lucida pick --help'"),
             ("pick spheres 1.5 3", "argument ROW: '1.5' is not a whole number; give e.g. 12"),
             ("pick spheres 720 0", "ROW: 720 is outside an image of 1280x720; give 0 to 719"),
@@ -243,3 +248,43 @@ class TestEnds:
     def test_scenes_are_those_of_the_renderer(self, capsys):
         assert main(["scene"]) == 0
         assert tuple(capsys.readouterr().out.split()) == BUILTIN_SCENES
+
+
+CAMERA = "view eye target up u v w distance fov viewport projection near far lens fit size"
+DRAWING = {"samples": 1, "exposure": 0.0, "backend": "auto", "shadows": False, "mirrors": 0}
+WORKERS = {"workers": 1, "scheduler": ""}
+# The least arguments; the options that are None without a value, and what the others are.
+OPTIONS = {
+    "render s -o o": (CAMERA, {"renderer": "raster", "channel": "color"} | DRAWING | WORKERS),
+    "animate s -o o --orbit": (
+        f"{CAMERA} path seconds",
+        {"orbit": True, "dolly_zoom": False, "fps": 30.0, "renderer": "raster"} | DRAWING | WORKERS,
+    ),
+    "compare s": (f"{CAMERA} output", {"backend": "auto", "json": False}),
+    "pick s 1 2": (CAMERA, {"row": 1, "column": 2, "json": False}),
+    "camera i": ("to output size pixel_origin", {"no_lens": False, "json": False}),
+    "export s -o o": (CAMERA, {}),
+    "figure s -o o": (
+        f"{CAMERA} mark", {"what": "outside", "ground": "white", "scale": 1.0},
+    ),
+    "page s -o o": (CAMERA, {}),
+    "check f": ("command tasks task json user python starter output", {}),
+    "tasks": ("task tasks", {}),
+    "lecture": (
+        "file export answers results output size",
+        {"step": (0, 0), "check": False, "no_answers": False, "outside": False},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("line", OPTIONS)
+def test_options_that_are_not_given_have_their_defaults(line, monkeypatch):
+    name, *given = line.split()
+    (command,) = (one for one in COMMANDS if name == one.NAME)
+    parser = ArgumentParser()
+    command.configure(parser)
+    empty, others = OPTIONS[line]
+    wanted = dict.fromkeys(empty.split()) | others
+    wanted |= {one: one[0] for one in ("scene", "output") if one[0] in given}
+    wanted |= {key: key[0] for key in ("input", "file") if key[0] in given}
+    assert vars(parser.parse_args(given)) == wanted

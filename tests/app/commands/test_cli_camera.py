@@ -226,7 +226,7 @@ class TestView:
 
     @pytest.mark.parametrize(
         ("own", "shown"),
-        [((640, 480), (640, 480)), ((6000, 4000), (1500, 1000)), ((1, 16384), (1, 16384))],
+        [((1920, 1200), (1920, 1200)), ((6000, 4000), (1500, 1000)), ((1, 16384), (1, 16384))],
     )
     def test_a_photograph_is_shown_in_a_part_of_its_pixels(self, own, shown):
         assert shown_size(own) == shown

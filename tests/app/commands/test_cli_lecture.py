@@ -8,7 +8,9 @@ from launching import launch
 from PIL import Image
 
 from lucida.app.cli import main
+from lucida.app.commands.lecture import EXPORT_SIZE
 from lucida.app.ui import formula
+from lucida.app.window import lecturing
 from tests.support.refusals import refused
 
 LECTURE = '''\
@@ -108,3 +110,12 @@ def test_a_full_disk_leaves_no_folder(tmp_path):
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(("given", "size"), [("", EXPORT_SIZE), ("--size 900x600", (900, 600))])
+def test_pictures_have_the_size_that_is_given_or_one_for_all(given, size, monkeypatch, capsys):
+    monkeypatch.setattr(
+        lecturing, "export_lecture", lambda *called: ["0.png"] * (called[3] == size)
+    )
+    assert main(f"lecture --export out {given}".split()) == 0
+    assert capsys.readouterr().out == f"out: 1 picture, {size[0]}x{size[1]}\n"

@@ -18,6 +18,7 @@ from PIL import Image
 
 from lucida.app.cameras.films.frames import Drawing, Look, Shot
 from lucida.app.cli import main
+from lucida.app.commands import render_parts
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.files import load_scene, save_view
 from lucida.renderer.images import ENDINGS, to_srgb8
@@ -219,3 +220,21 @@ def test_a_model_is_drawn_without_what_only_other_files_need(tmp_path):
     command = [sys.executable, "-c", code, "render", "x.obj", "-o", "x.png", "--size", "8x8"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.stderr.strip() == "[]"
+
+
+@pytest.mark.parametrize(
+    "options", [("--workers", "2"), ("--scheduler", "tcp://there:8786"), ("--size", "16384x4097")]
+)
+def test_a_large_image_and_one_of_several_workers_are_drawn_in_parts(options, monkeypatch):
+    monkeypatch.setattr(render_parts, "render_in_parts", lambda *_: 7)
+    assert main(["render", "spheres", "-o", "a.png", *options]) == 7
+
+
+def test_notes_on_a_scene_are_told_on_standard_error(capsys, tmp_path):
+    Path("a.obj").write_text("mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n")
+    Path("a.mtl").write_text("newmtl a\nmap_Bump bumps.png\n")
+    notes = load_scene("a.obj").notes
+    assert notes
+    assert main(["pick", "a.obj", "0", "0", "--size", "8x8"]) == 0
+    told = capsys.readouterr().err.splitlines()
+    assert told[: len(notes)] == [f"lucida: {note}" for note in notes]

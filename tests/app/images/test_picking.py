@@ -44,3 +44,12 @@ def test_what_is_behind_is_not_met_and_inside_counts():
 def test_a_pixel_outside_of_the_lens_shows_no_object():
     scene, nowhere = load_scene("still-life"), np.full(3, np.nan)
     assert object_on_ray(scene, np.zeros(3), nowhere) is None
+
+
+def test_the_nearest_point_of_a_sphere_counts_whatever_the_ray_s_length():
+    near, far = (SceneObject(Sphere((0, 0, z), radius)) for z, radius in ((1, 1.0), (-5, 5.5)))
+    scene = Scene((far, near))  # they overlap: each begins before the other's middle
+    for length in (0.1, 1.0, 30.0):
+        for z, number in ((9, 1), (-20, 0), (1.5, 0), (1, 0)):
+            way = np.array([0.0, 0.0, -length if z > -20 else length])
+            assert object_on_ray(scene, np.array([0.0, 0, z]), way) == number, (length, z)

@@ -9,21 +9,25 @@ from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Dot, Eye, Label, RayEnd
 from lucida.app.state.options.outside import OutsideOptions
 
-STEPS = {build.title: build for build in both_lectures().builds}  # at their last builds
 VIEW = (818, 634)  # the outside view's pixels beside the text, in a window of 1280 x 720
 
 
+def steps():
+    """Return all steps by title, at their last builds."""
+    return {build.title: build for build in both_lectures().builds}
+
+
 def text_of(title):
-    return str(plain_text(STEPS[title].blocks))
+    return str(plain_text(steps()[title].blocks))
 
 
 def options_of(title):
-    given = dict(STEPS[title].changes.get("outside", {}))
+    given = dict(steps()[title].changes.get("outside", {}))
     return OutsideOptions(**given)
 
 
 def items_of(title):
-    step = STEPS[title]
+    step = steps()[title]
     size = step.changes.get("images", {}).get("resolution", VIEW)
     return diagram(Content(step.view.for_size(size), size, options_of(title), 9.0))
 
@@ -34,7 +38,7 @@ def labels_of(title):
 
 def test_where_there_is_no_eye_none_is_drawn():
     assert "parallel" in text_of("Parallel projection")
-    for title, step in STEPS.items():
+    for title, step in steps().items():
         if "outside" in step.views:
             parallel = step.view.camera.is_parallel
             kinds = {type(item) for item in items_of(title)}
@@ -46,7 +50,7 @@ def test_where_there_is_no_eye_none_is_drawn():
 
 @pytest.mark.parametrize("title", ["The basis from a target", "Exercise: find the basis"])
 def test_target_and_up_are_drawn_where_they_are_named(title):
-    step = STEPS[title]
+    step = steps()[title]
     assert {"target", "up"} <= labels_of(title)
     camera, (dot,) = (
         step.view.camera,
@@ -58,7 +62,7 @@ def test_target_and_up_are_drawn_where_they_are_named(title):
 
 def test_the_points_of_the_ray_are_drawn_where_their_parameters_are_named():
     title = "A ray is half a line"
-    step = STEPS[title]
+    step = steps()[title]
     assert step.pixel is not None
     size = step.changes["images"]["resolution"]
     marked = RayEnd(step.pixel, 2.5)

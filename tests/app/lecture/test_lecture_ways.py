@@ -10,8 +10,6 @@ from lucida.app.lecture.step_options import OWN, state_of
 from lucida.app.state.app_state import AppState
 from lucida.renderer.files import load_scene
 
-LECTURE = both_lectures()
-
 
 def spoiled(state):
     """Return a state as a user may have changed it."""
@@ -27,12 +25,13 @@ def spoiled(state):
     return changed.with_camera(replace(state.camera, eye=(0.3, 0.4, 7.0))).with_fit(False)
 
 
-@pytest.mark.parametrize("number", range(len(LECTURE.steps)))
+@pytest.mark.parametrize("number", range(len(both_lectures().steps)))
 def test_a_steps_state_does_not_depend_on_the_way(number):
-    step = LECTURE.steps[number]
+    steps = both_lectures().steps
+    step = steps[number]
     begun = AppState.for_scene(load_scene("spheres"))
     own = state_of(step, begun)
-    for before in LECTURE.steps[number % 4 :: 4]:
+    for before in steps[number % 4 :: 4]:
         came = state_of(before, begun)
         assert state_of(step, came) == own
         assert state_of(step, spoiled(came)) == own

@@ -173,3 +173,11 @@ def test_the_command_writes_the_page(tmp_path, capsys):
     capsys.readouterr()
     assert main(["lecture", "--results", str(lines)]) == 2
     assert capsys.readouterr().err == "lucida: --results: has no page to write; add -o class.html\n"
+
+
+def test_a_log_that_ends_with_a_whole_line_is_continued_as_it_is(lecture, tmp_path):
+    path = tmp_path / "answers.jsonl"
+    answer(lecture, AnswerLog(path), RAY, texts={"origin": "0 0 0", "direction": "0 0 -1"})
+    before = path.read_bytes()
+    AnswerLog(path)
+    assert path.read_bytes() == before

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from lucida import LucidaError
+from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import MODELS, Lens
 
 DIRECTIONS = np.array([(0.64, 0.48, 1.0), (-0.64, 0.3, 1.0)]).T
@@ -132,3 +133,8 @@ def test_a_wrong_lens_names_the_field(model, coefficients, field):
     with pytest.raises(LucidaError) as caught:
         Lens(model, coefficients)
     assert caught.value.field == field and caught.value.remedy
+
+
+def test_a_lens_is_a_lens():
+    with pytest.raises(LucidaError, match="lens: is of type str, not a Lens"):
+        Camera(lens="fisheye")

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from lucida.renderer.camera import navigation
 from lucida.renderer.camera.camera import Camera
+from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.system.errors import LucidaError
 
 SIZE = (320, 200)
@@ -238,3 +239,13 @@ def test_a_shift_keeps_the_viewport_s_size(camera, axis, value):
     assert high - low == pytest.approx(was_high - was_low)
     other = 2 - 2 * axis
     assert after.viewport[other : other + 2] == camera.viewport[other : other + 2]
+
+
+def test_a_pan_behind_a_lens_takes_the_point_along_and_stops_where_the_lens_ends():
+    camera = Camera(eye=(1, 2, 3), viewport=(-4, 4, -4, 4), lens=Lens("equidistant"))
+    start, end = (0.3, -0.2), (-0.5, 0.6)
+    after = navigation.panned(camera, start, end, 2.0)
+    point = np.add(camera.eye, 2 * camera.direction(*start))
+    assert np.allclose(np.add(after.eye, 2 * after.direction(*end)), point)
+    assert after.eye != camera.eye
+    assert navigation.panned(camera, start, (3.9, 3.9), 2.0) is camera  # no ray comes from there

@@ -11,7 +11,8 @@ from lucida.renderer.compare.why_black import why_nothing_is_hit
 from lucida.renderer.editing import changing, materials, moving, objects
 from lucida.renderer.editing.outline import outline
 from lucida.renderer.files import load_scene
-from lucida.renderer.scene import flatten
+from lucida.renderer.scene import Scene, SceneObject, Sphere, flatten
+from lucida.renderer.scene.shapes import box
 from lucida.renderer.system.errors import LucidaError
 
 
@@ -174,3 +175,42 @@ def test_of_a_model_the_material_of_its_file_is_begun_with(scene):
     assert shiny.objects[3].material.diffuse == own.diffuse
     back = changing.set_field(shiny, [tent], "material", None)
     assert back.objects[3].material == own
+
+
+def test_a_model_alone_is_edited_without_being_read_again(tmp_path):
+    (tmp_path / "tent.obj").write_text(TENT)
+    scene = load_scene(tmp_path / "tent.obj")
+    (tmp_path / "tent.obj").unlink()
+    edited, (new,) = objects.add(scene, objects.new_table(scene, "sphere"))
+    for one in (edited, changing.as_tables(scene)):
+        assert np.shares_memory(one.objects[0].shape.vertices, scene.objects[0].shape.vertices)
+    assert [row.shown for row in outline(edited)][:2] == ["tent", "sphere"]
+    assert changing.ids_of(edited, new) == range(1, 2)
+
+
+def test_a_scene_made_in_python_is_edited_or_listed_as_it_is():
+    balls = tuple(SceneObject(Sphere((k, 0, 0)), name="ball" * k) for k in range(2))
+    edited, (new,) = objects.add(Scene(balls), objects.new_table(Scene(balls), "box"))
+    assert len(edited.objects) == 3 and changing.ids_of(edited, new) == range(2, 3)
+    rows = outline(Scene((*balls, SceneObject(box()))))
+    assert [
+        (row.item, row.shown, row.kind, row.ids, row.triangles, row.locked) for row in rows
+    ] == [
+        (None, "sphere 0", "sphere", range(1), 0, True),
+        (None, "ball", "sphere", range(1, 2), 0, True),
+        (None, "mesh 2", "mesh", range(2, 3), 12, True),
+    ]
+
+
+def test_new_things_are_as_large_as_asked_and_where_asked():
+    scene, at = Scene(()), (1.0, 2.0, 3.0)
+    for kind in objects.SHAPES:
+        added, items = objects.add(scene, objects.new_table(scene, kind, at, 0.5))
+        low, high = moving.bounds_of(added, items)
+        assert (low <= at).all() and (at <= high).all(), kind
+        assert np.ptp([low, high], axis=0).max() == pytest.approx(0.5, rel=0.01), kind
+    gray, other = (0.8, 0.8, 0.8), {"point": at, "directional": tuple(-x for x in at)}
+    for kind, place in other.items():
+        light = objects.add(scene, objects.new_table(scene, kind, at))[0].lights[-1]
+        assert light.color == gray
+        assert (light.position if kind == "point" else light.direction) == place

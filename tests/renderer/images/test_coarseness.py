@@ -4,6 +4,7 @@ import pytest
 
 from lucida.renderer.images.coarseness import (
     FACTORS,
+    MOST_HITS,
     MOST_MISSES,
     STILL_S,
     Coarseness,
@@ -96,3 +97,13 @@ def test_the_last_pixels_are_part_of_a_coarse_image(size):
     for factor in FACTORS:
         for full, coarse in zip(size, reduced(size, factor), strict=True):
             assert coarse >= 1 and (coarse - 1) * factor < full <= coarse * factor
+
+
+@pytest.mark.parametrize(("share", "finer"), [(0.25, True), (0.26, False)])
+def test_several_images_in_a_quarter_of_the_budget_make_it_finer_and_no_fewer(share, finer):
+    coarseness = Coarseness(BUDGET_S, unknown=4)
+    coarseness.changed(PIXELS, 0.0)
+    for frame in range(1, MOST_HITS + 1):
+        coarseness.measured(4, PIXELS // 16, share * BUDGET_S)
+        wanted = 2 if finer and frame == MOST_HITS else 4
+        assert coarseness.changed(PIXELS, frame * FRAME_S) == wanted

@@ -1,5 +1,6 @@
 """The display transform, and image files read back by other readers."""
 
+import io
 import os
 import stat
 import struct
@@ -21,6 +22,7 @@ from lucida.renderer.images import (
     write_picture,
 )
 from lucida.renderer.images.frame import Frame, check_size
+from lucida.renderer.images.png import write_png
 from lucida.renderer.images.samples import supersampled
 from lucida.renderer.system.errors import LucidaError
 
@@ -275,3 +277,35 @@ def test_the_time_of_an_image_is_that_of_all_its_samples():
         return Frame(size, np.zeros((1, 2, 3), np.float32), time_s=next(times))
 
     assert supersampled(draw, Camera(), (2, 1), ("color",), 4).time_s == 15.0
+
+
+@pytest.mark.parametrize("samples", [1, 4, 9])
+def test_colour_is_the_mean_of_the_samples_and_the_rest_is_the_centre_s(samples):
+    camera, size, told = Camera(viewport=(-1, 2, -3, 4)), (2, 1), []
+
+    def light(seen):
+        return np.float32(seen.viewport[0] ** 2 + seen.viewport[2])
+
+    def draw(seen, size, channels, progress):
+        progress(1.0)
+        shape, value = (size[1], size[0]), light(seen)
+        color = np.full((*shape, 3), value, np.float32) if "color" in channels else None
+        depth = np.full(shape, value, np.float32) if "depth" in channels else None
+        return Frame(size, color, depth=depth)
+
+    side = int(samples**0.5)
+    shifts = (np.arange(side) + 0.5) / side - 0.5
+    mean = np.mean([light(camera.shifted(a, b, size)) for a in shifts for b in shifts])
+    found = supersampled(draw, camera, size, ("color", "depth"), samples, told.append)
+    assert found.color == pytest.approx(np.full((1, 2, 3), mean), rel=1e-6)
+    assert (found.depth == light(camera)).all()
+    assert told == pytest.approx(np.arange(1, len(told) + 1) / len(told))
+    depth = supersampled(draw, camera, size, ("depth",), samples, told.append)
+    assert depth.color is None and (depth.depth == light(camera)).all()
+
+
+def test_a_png_file_of_bits_holds_every_one():
+    bits = np.random.default_rng(1).random((5, 13)) > 0.5
+    file = io.BytesIO()
+    write_png(file, bits)
+    assert (np.asarray(Image.open(file)) == bits).all()

@@ -1,6 +1,6 @@
 """A user's mistake is one line, whatever it is about."""
 
-from lucida.renderer.system.errors import LucidaError, one_line, shortened
+from lucida.renderer.system.errors import LucidaError, one_line, shortened, visible
 
 
 def test_an_error_tells_source_field_problem_and_remedy():
@@ -30,3 +30,8 @@ def test_what_a_file_makes_long_is_shown_short():
 
 def test_bytes_that_are_no_text_are_shown_as_such():
     assert one_line("a\udcff\ud800\x1b\n b") == r"a\xff\ud800\x1b b"
+
+
+def test_what_a_terminal_only_shows_is_not_escaped():
+    text = 'a "quoted" \\path\n\tindented \u200cand joined\u200d: \u00e9 \u6f22'
+    assert visible(text) == text

@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import pytest
+from sketched import sketched
 
 from lucida.app.instruments.laboratory import array, images, light, ruler, shapes, storage
 from lucida.app.instruments.laboratory.kinds import KINDS
@@ -151,3 +152,34 @@ def test_few_pixels_are_numbered_and_counted():
     texts = [part.text for part in figure.parts if isinstance(part, Label)]
     assert texts[:14] == [*"12345678", *"123456"]
     assert texts[14:] == ["8 x 6 pixels", "3 numbers each: 144 numbers"]
+
+
+# All builds of each page and the moments between them, as recorded on 2026-11-30. If a drawing
+# changes on purpose, look at it in the window and record the number that the failure names.
+SKETCHES = {
+    "function": 813568.74,
+    "shapes": 802950.85,
+    "projectors": 3168035.90,
+    "displays": 12860679.76,
+    "raster": 42682.42,
+    "kinds": 26681.25,
+    "exposure": 8847.51,
+    "storage": 83629.84,
+    "array": 893498.04,
+    "devices": 2717414.64,
+    "dimension": 1814587.78,
+    "ruler": 6507384.06,
+}
+
+
+def figures(page: str) -> list[Figure]:
+    last = PAGES[page].builds
+    wide = [
+        figure_of(page, progress=float(one), phase=0.3) for one in np.arange(0, last + 0.5, 0.5)
+    ]
+    return [*wide, figure_of(page, (360, 480), float(last), phase=0.3)]
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_a_page_is_drawn_as_recorded(page):
+    assert sketched(figures(page)) == pytest.approx(SKETCHES[page], abs=0.02)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -10,8 +11,10 @@ import pytest
 from lucida.app.instruments.objects import editing
 from lucida.app.instruments.objects.choosing import choose, chosen, rows_of, unlocked
 from lucida.app.instruments.objects.outliner import scroll_to
+from lucida.app.instruments.objects.placing import place_for
 from lucida.app.state.app_state import AppState
-from lucida.renderer.editing.changing import set_field
+from lucida.renderer.camera.navigation import switched_projection
+from lucida.renderer.editing.changing import set_field, table_of
 from lucida.renderer.editing.moving import bounds_of
 from lucida.renderer.files import SCENE_NAMES, load_scene
 from lucida.renderer.scene.focus import scene_focus
@@ -90,3 +93,34 @@ def test_hiding_a_row_hides_the_selection_if_the_row_is_in_it(state):
 )
 def test_a_list_is_scrolled_by_as_little_as_a_line_needs(line, scrolled, after):
     assert scroll_to(line, 20.0, scrolled, 100.0) == after
+
+
+@pytest.mark.parametrize("is_light", [False, True])
+@pytest.mark.parametrize("projection", ["perspective", "parallel"])
+def test_a_new_thing_has_its_place_in_the_picture_and_a_size_by_scene_and_view(
+    is_light, projection
+):
+    state = AppState.for_scene(load_scene("still-life"))
+    focus, camera = scene_focus(state.scene), state.camera
+    if projection == "parallel":
+        camera = switched_projection(camera, focus.center)
+    middle = float(camera.project(focus.center, (1, 1)).parameter)
+    found = place_for(focus, camera, is_light)
+    seen = camera.project(found.at, (1, 1))
+    assert (seen.row, seen.column) == pytest.approx((-0.35, 0.2) if is_light else (0, 0), abs=1e-9)
+    t = middle if is_light else 0.6 * middle
+    assert seen.parameter == pytest.approx(t)
+    bottom, top = camera.viewport[2:]
+    high = 0.3 * (top - bottom) * np.linalg.norm(camera.v) * (1 if camera.is_parallel else t)
+    assert found.size == pytest.approx(high)
+    wide = replace(camera, viewport=tuple(50 * side for side in camera.viewport))
+    diagonal = np.linalg.norm(np.ptp(focus.framed, axis=0))
+    assert place_for(focus, wide, is_light).size == pytest.approx(0.16 * diagonal)
+
+
+def test_a_light_without_a_place_can_be_added(state):
+    after = editing.added(state, "directional", scene_focus(state.scene))
+    assert after.scene.objects == state.scene.objects
+    assert len(after.scene.lights) == len(state.scene.lights) + 1
+    assert table_of(after.scene, *chosen(after))["type"] == "directional"
+    assert after.scene.lights[-1].color == (0.8, 0.8, 0.8)

@@ -155,5 +155,35 @@ def covered(pieces: np.ndarray, triangles: np.ndarray, aside: float) -> np.ndarr
     spots = pieces.mean(axis=1) + aside * np.stack([-way[:, 1], way[:, 0]], axis=1)
     start, side = triangles, np.roll(triangles, -1, axis=1) - triangles
     to = spots[:, None, None] - start
-    signs = side[..., 0] * to[..., 1] - side[..., 1] * to[..., 0]
+    signs = determinant(side, to)
     return ((signs > 0).all(axis=2) | (signs < 0).all(axis=2)).any(axis=1)
+
+
+def determinant(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    return one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
+
+
+def test_an_outline_s_piece_is_outer_where_a_pixel_beside_it_is_covered_by_nothing():
+    """Of two overlapping triangles at odd places, some of which are beyond the image."""
+    rng, size = np.random.default_rng(4), (40, 30)
+    for _ in range(20):
+        corners = rng.uniform(-15, 45, (2, 3, 2))
+        side = determinant(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        corners[side < 0] = corners[side < 0, ::-1]  # both the same way round
+        lines = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2, 2)
+        pieces = outer(lines, np.zeros(6), size)  # all
+        way = pieces[:, 1] - pieces[:, 0]
+        aside = silhouette.ASIDE_PX * way[:, ::-1] * (-1, 1)
+        aside /= np.linalg.norm(way, axis=1, keepdims=True)
+        spots = pieces.mean(axis=1) + np.stack([aside, -aside])
+        pixels = np.clip(spots, 0, np.subtract(size, 1)).astype(int) + 0.5
+        to = pixels[:, :, None, None] - corners
+        edges = np.roll(corners, -1, axis=1) - corners
+        inside = (determinant(edges, to) > 0).all(axis=-1).any(axis=-1)
+        assert np.array_equal(outer(lines, np.ones(6), size), pieces[~inside.all(axis=0)])
+
+
+def test_a_sphere_has_no_outline_from_inside():
+    ball = SceneObject(Sphere((0.1, 0, 0.2), 10.0), Material())
+    assert outline_of(ball, CAMERAS[0])[0].shape == (0, 2, 3)
+    assert len(outline_of(ball, CAMERAS[1])[0])  # parallel rays come from outside

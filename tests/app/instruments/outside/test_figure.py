@@ -7,12 +7,14 @@ import io
 import math
 import re
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 from PIL import Image
+from sketched import sketched
 
 from lucida.app.instruments.outside.camera_diagram import Content, diagram
 from lucida.app.instruments.outside.diagram import Item, Label, RayEnd, Segments
@@ -24,6 +26,7 @@ from lucida.app.instruments.outside.figure import (
     with_picture,
 )
 from lucida.app.instruments.outside.frustum import pixel_corners, plane_corners
+from lucida.app.instruments.outside.growing import grown_diagram
 from lucida.app.instruments.outside.projected import project
 from lucida.app.instruments.outside.screen import OutsideScreen, image_plane
 from lucida.app.instruments.outside.svg import svg
@@ -221,3 +224,54 @@ def test_pixels_show_the_same_parts_over_the_ground(ground: Any) -> None:
     assert abs(across.min() - start) < 4
     assert abs(across.max() - end) < 4
     assert (rows < SIZE[1] / 2 - 10).any()  # the letters
+
+
+# The diagrams, figures and files of these options, as recorded on 2026-11-30. If one changes on
+# purpose, look at it in the window and record the number that the failure names.
+SKETCHES = {
+    "all rays": 4686243.56,
+    "the camera's plane": 4666822.41,
+    "the growing formula": 5290209.60,
+    "the whole formula": 5980190.41,
+    "the formula alone": 4634357.23,
+    "a simple ray": 3924994.21,
+    "to parallel": 5399400.11,
+    "the line": 3432793.43,
+    "the half line": 4790376.59,
+    "the simple camera": 5893225.15,
+    "a basis from a target": 5190180.72,
+    "a whole basis": 4887514.81,
+    "points": 6051079.74,
+}
+OPTIONS = {
+    "all rays": OutsideOptions(),
+    "the camera's plane": OutsideOptions(pixels=True, volume=False, basis=False, image_opacity=0.4),
+    "the growing formula": OutsideOptions(formula=3.5, numbers=True),
+    "the whole formula": OutsideOptions(formula=9.0),
+    "the formula alone": OutsideOptions(formula=2.5, image=False, grid=False),
+    "a simple ray": OutsideOptions(formula=4.5, simple=5.0),
+    "to parallel": OutsideOptions(formula=6.0, to_parallel=0.4),
+    "the line": OutsideOptions(half_line=2.5, meetings=0.5),
+    "the half line": OutsideOptions(half_line=4.0, meetings=2.0),
+    "the simple camera": OutsideOptions(simple=4.5),
+    "a basis from a target": OutsideOptions(target=(0.5, 0.1, -1.0), basis_grown=2.5),
+    "a whole basis": OutsideOptions(target=(0.5, 0.1, -1.0), volume=False, grid=False),
+    "points": OutsideOptions(points=((0.2, 0.1, -1.0), (-0.5, 0.3, -2.0)), points_grown=1.5),
+}
+
+
+@pytest.mark.parametrize("name", OPTIONS)
+def test_a_diagram_and_its_file_are_drawn_as_recorded(name: str) -> None:
+    found: list[Any] = []
+    parallel, near = replace(CAMERA, projection="parallel"), replace(CAMERA, near=0.5, far=3.0)
+    for camera in (CAMERA, parallel, near):
+        hits = [RayEnd((20, 30), 2.5), RayEnd((200, 250), 3.0)]
+        content = Content(
+            camera, SIZE, OPTIONS[name], 4.0, hits, RayEnd((100, 120), 2.0), 8, 0, "corner",
+            number_step=2, meetings=(-1.0, 2.0, 3.0),
+        )  # fmt: skip
+        items = [*diagram(content), *grown_diagram(content)]
+        figure = drawn(items)
+        words = re.split(r"(-?\d+\.?\d*)", svg(figure))
+        found += items, figure, words[::2], [float(one) for one in words[1::2]]
+    assert sketched(found) == pytest.approx(SKETCHES[name], abs=0.05)

@@ -168,3 +168,36 @@ def test_a_camera_keeps_the_shape_of_its_image_s_pixels():
         assert right >= 0.6 - 1e-12 and top >= 0.5 - 1e-12
     state = AppState.for_scene(Scene(()), view)
     assert state.with_fit(False).view.for_size((300, 100)) is camera
+
+
+def test_frusta_are_as_long_as_the_set_is_wide_and_shorter_among_many() -> None:
+    reach = 3.0 * math.sqrt(2)  # half of the diagonal around cameras on a ring
+    for count, share in ((4, 0.15), (400, 0.035), (1000, 0.03)):
+        assert a_set(count).length == pytest.approx(reach * share)
+    assert a_set(1).length == pytest.approx(0.15)
+    around = np.array([[0.0, 0.0, 0.0], [3.0, 1.0, 4.0]])
+    one = a_set(1, points=around)
+    assert one.length == pytest.approx(0.15 * np.linalg.norm(one.high - one.low) / 2)
+
+
+def test_few_of_the_other_opinion_do_not_change_what_is_up() -> None:
+    for down, up in ((14, -1), (13, 1)):  # of twenty: by 0.4, and by 0.3
+        posed = [
+            replace(one, camera=replace(one.camera, v=(0.0, -1.0 if k < down else 1.0, 0.0)))
+            for k, one in enumerate(ring(20))
+        ]
+        assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(posed))).up, (0, up, 0))
+
+
+@pytest.mark.parametrize("lens", [None, Lens("equidistant")])
+def test_the_mark_for_up_is_above_the_middle_of_the_image(lens: Lens | None) -> None:
+    posed = ring(1)[0]
+    camera = replace(posed.camera, lens=lens)
+    poses = pose_set(Path("f"), CameraSet("f", (replace(posed, camera=camera),)))
+    lines = frusta(poses)
+    tip, corners = lines[-1, 1] - camera.eye, lines[:4, 1] - camera.eye
+    assert np.allclose(lines[-2, 1], lines[-1, 1])
+    assert np.allclose(lines[-2:, 0], lines[:2, 1])  # from the upper corners
+    assert tip @ np.asarray(camera.u) == pytest.approx(0, abs=1e-9)
+    high = corners @ np.asarray(camera.v)
+    assert tip @ np.asarray(camera.v) > high.max() + 0.2 * np.ptp(high)

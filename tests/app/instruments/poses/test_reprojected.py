@@ -69,3 +69,11 @@ def test_they_are_drawn_on_a_photograph_if_they_are_wanted(tmp_path: Path) -> No
     assert again.pixels is not None and (again.pixels == (200, 0, 0)).all()
     (tmp_path / "a.png").unlink()
     assert pictured(without, 0, True).pixels is None
+
+
+def test_points_in_the_outermost_pixels_are_drawn() -> None:
+    corners = [(0, 0), (0, 79), (59, 0), (59, 79)]
+    rays = [LOOKING.ray(*corner, (80, 60)) for corner in corners]
+    model = a_model([tuple(ray.origin + 4 * ray.direction) for ray in rays])
+    picture = with_points(model, 0, np.zeros((60, 80, 3), np.uint8))
+    assert [picture[corner].tolist() for corner in corners] == [[k] * 3 for k in (1, 2, 3, 4)]

@@ -150,3 +150,14 @@ def test_a_cancelled_export_leaves_nothing(tmp_path: Path):
         with pytest.raises(CancelledError), cancelled_by(GivenUp(at).check):
             exported(scene, path)
         assert files_in(tmp_path) == before, at
+
+
+@pytest.mark.parametrize(
+    ("name", "problem"), [("a.obj", "ends in '.obj'"), ("a", "has no ending"), ("a.glb.x", "'.x'")]
+)
+def test_another_ending_than_glb_is_refused_and_nothing_is_written(name, problem, tmp_path: Path):
+    with pytest.raises(LucidaError, match=problem):
+        export_scene(tmp_path / name, Scene(()), CAMERA, SIZE)
+    assert not list(tmp_path.iterdir())
+    export_scene(tmp_path / "a.GLB", Scene((SceneObject(Sphere()),)), CAMERA, SIZE)
+    assert (tmp_path / "a.GLB").stat().st_size
