@@ -12,7 +12,7 @@ from lucida.renderer.scene.limits import TOML_BYTES
 from lucida.renderer.system.errors import LucidaError
 
 STEP = '[[steps]]\ntitle = "T"\ntext = """\n{}"""\n'
-SMALL = 600  # characters
+SMALL = 1_200  # characters
 
 
 def lecture(text):
