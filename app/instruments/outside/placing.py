@@ -91,7 +91,7 @@ class LabelPlacer:
             cost = costs[number] + LABEL * _overlap(of_text, taken).sum(axis=1) / areas[number]
             if label in before:
                 cost[before[label][1]] -= KEPT
-            best = 0 if text.fixed else int(cost.argmin())
+            best = 0 if text.fixed else int(cost.round(3).argmin())  # equal: the first
             self._chosen[label] = text.at, best
             x, y = places[number, best].tolist()
             (far_x, far_y), (wide_x, wide_y) = size, wide[number].tolist()
