@@ -7,9 +7,12 @@ field has the keyboard.
 
 from __future__ import annotations
 
+import math
+
 from imgui_bundle import hello_imgui, imgui
 
 _FLAGS = imgui.internal.NavMoveFlags_
+_REPEAT_DELAY_S = 0.275  # ImGui's own
 _TO_A_FIELD = int(_FLAGS.is_tabbing) | int(_FLAGS.focus_api)
 
 
@@ -28,6 +31,8 @@ class Focusing:
         if self._has_held:
             self._held = _copy(context.input_events_queue)
             context.input_events_queue.clear()
+        # The release of Tab waits, too: in a slow frame, Tab would repeat.
+        imgui.get_io().key_repeat_delay = math.inf if self._has_held else _REPEAT_DELAY_S
 
     def begin_frame(self) -> None:
         """Queue the events for the next frame, before newer ones. Call when a frame has begun."""
