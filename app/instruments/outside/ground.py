@@ -77,5 +77,5 @@ class Ground:
                 camera = request.camera.shifted(*shift, request.size)
                 textures = rasterizer.draw(replace(request, camera=camera), PLACES[1])
                 mean = overlay.gather(textures, number == 0, 1 / len(SHIFTS))
-            self.shown = picture = replace(picture, textures=textures, mean=mean)
+            self.shown = picture = replace(picture, textures=textures, mean=mean, factor=1)
         return picture

@@ -273,7 +273,8 @@ class OutsideView(Instrument):
             ImageRequest(state.scene, camera, size), both.textures.rasterizer, tools.overlay,
             refines=not moves,
         )  # fmt: skip
-        if moves or not tools.ground.settled:
+        coarse = moves or ground.factor > 1 or both.unfinished(state)
+        if coarse or not tools.ground.settled:
             host.animate()
         near, units = nearest(camera, scope), units_px(scope.extent)
         content = self.content(host, OutsideScreen(camera, size, near, *units))
@@ -281,7 +282,7 @@ class OutsideView(Instrument):
             tools, ground, content, (near, *units),
             Extension(extensions.items, extensions.cloud, picture),
             Shown(live, state.images, theme.used()),
-            moves or ground.factor > 1 or both.unfinished(state),
+            coarse,
         )  # fmt: skip
 
     def content(self, host: Host, screen: OutsideScreen) -> Content:

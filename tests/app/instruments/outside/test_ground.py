@@ -40,7 +40,9 @@ def draw(monkeypatch):
         now_s[0] += after_s
         painter.sizes.clear()
         camera = replace(request.camera, eye=(place, 3.0, 5.0))
-        ground.picture(replace(request, camera=camera), painter, painter)
+        shown = ground.picture(replace(request, camera=camera), painter, painter)
+        for width, _ in painter.sizes[-1:]:
+            assert shown.factor == SIZE[0] // width
         return list(painter.sizes)
 
     return draw
