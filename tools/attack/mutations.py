@@ -126,9 +126,8 @@ def try_all(room: str, chosen: list[Mutant], end_s: float) -> dict[str, Any]:
     nothing = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nothing, 1)
     os.dup2(nothing, 2)
-    resource.setrlimit(
-        resource.RLIMIT_DATA, (MEMORY_BYTES, MEMORY_BYTES)
-    )  # a browser reserves more
+    limits = MEMORY_BYTES, MEMORY_BYTES
+    resource.setrlimit(resource.RLIMIT_DATA, limits)  # not AS: a browser reserves more addresses
     plugin = _Plugin(chosen, out, end_s)
     status = pytest.main([*ARGUMENTS, f"--rootdir={ROOT}", *tests_of(room)], plugins=[plugin])
     return plugin.found or {"error": f"pytest ends with {int(status)}"}
