@@ -12,7 +12,6 @@ import math
 from imgui_bundle import hello_imgui, imgui
 
 _FLAGS = imgui.internal.NavMoveFlags_
-_REPEAT_DELAY_S = 0.275  # ImGui's own
 _TO_A_FIELD = int(_FLAGS.is_tabbing) | int(_FLAGS.focus_api)
 
 
@@ -21,18 +20,21 @@ class Focusing:
 
     def __init__(self) -> None:
         self._held: imgui.ImVector_InputEvent | None = None
+        self._repeat_delay_s = 0.0
         self._has_held = False  # in the previous frame; never hold twice in a row
 
     def before_frame(self) -> None:
         """Remove the events if a field will get the keyboard. Call between two frames."""
-        context = imgui.get_current_context()
+        context, io = imgui.get_current_context(), imgui.get_io()
+        if self._has_held:
+            io.key_repeat_delay = self._repeat_delay_s
         is_asked = context.nav_move_submitted and context.nav_move_flags & _TO_A_FIELD
         self._has_held = bool(is_asked) and not self._has_held
         if self._has_held:
             self._held = _copy(context.input_events_queue)
             context.input_events_queue.clear()
-        # The release of Tab waits, too: in a slow frame, Tab would repeat.
-        imgui.get_io().key_repeat_delay = math.inf if self._has_held else _REPEAT_DELAY_S
+            # The release of Tab waits, too: in a slow frame, Tab would repeat.
+            self._repeat_delay_s, io.key_repeat_delay = io.key_repeat_delay, math.inf
 
     def begin_frame(self) -> None:
         """Queue the events for the next frame, before newer ones. Call when a frame has begun."""
