@@ -1,4 +1,4 @@
-"""What is typed right after Tab, in ImGui without a window."""
+"""Letters typed right after Tab go to the next field: ImGui without a window."""
 
 from collections.abc import Iterator
 

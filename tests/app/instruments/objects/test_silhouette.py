@@ -164,7 +164,7 @@ def determinant(one: np.ndarray, other: np.ndarray) -> np.ndarray:
 
 
 def test_an_outline_s_piece_is_outer_where_a_pixel_beside_it_is_covered_by_nothing():
-    """Of two overlapping triangles at odd places, some of which are beyond the image."""
+    """Compare with two overlapping triangles at odd places, partly beyond the image."""
     rng, size = np.random.default_rng(4), (40, 30)
     for _ in range(20):
         corners = rng.uniform(-15, 45, (2, 3, 2))
