@@ -23,6 +23,7 @@ from lucida.renderer.trace import Tracer
 from lucida.renderer.trace.precompile import precompile
 from lucida.renderer.trace.tiles.variants import Variant
 from tests.support.browser import chromium
+from tests.support.launching import SERVED, address_of_server
 
 # make test repeats itself; `make attack ARGS=properties` takes other examples each time.
 settings.register_profile("lucida", deadline=None, derandomize=True, max_examples=40)
@@ -50,6 +51,8 @@ def pytest_sessionstart(session):
             )
         with collecting:
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
+        if sys.platform.startswith("linux"):
+            os.environ[SERVED] = address_of_server()
     scene = load_scene(BUILTIN_SCENES[0])
     for shadows in (False, True):
         with Tracer(scene, shadows=shadows) as tracer:
