@@ -24,6 +24,7 @@ from lucida.renderer.trace import Tracer
 from lucida.renderer.trace.precompile import precompile
 from lucida.renderer.trace.tiles.variants import Variant
 from tests.support.browser import chromium
+from tests.support.launching import SERVED, address_of_server
 
 # make test repeats itself; `make attack ARGS=properties` takes other examples each time.
 settings.register_profile("lucida", deadline=None, derandomize=True, max_examples=40)
@@ -49,6 +50,8 @@ def pytest_sessionstart(session):
             writing = subprocess.Popen(write, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         with writing:
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
+        if sys.platform.startswith("linux"):
+            os.environ[SERVED] = address_of_server()
     scene = load_scene(BUILTIN_SCENES[0])
     for shadows in (False, True):
         with Tracer(scene, shadows=shadows) as tracer:
