@@ -5,6 +5,7 @@ CI is set it fails. LUCIDA_PLATFORMS names the platforms (tools/attack/platforms
 otherwise tests run on the first that works.
 """
 
+import functools
 import os
 import subprocess
 import sys
@@ -23,6 +24,7 @@ from lucida.renderer.trace import Tracer
 from lucida.renderer.trace.precompile import precompile
 from lucida.renderer.trace.tiles.variants import Variant
 from tests.support.browser import chromium
+from tests.support.launching import SERVED, address_of_server
 
 # make test repeats itself; `make attack ARGS=properties` takes other examples each time.
 settings.register_profile("lucida", deadline=None, derandomize=True, max_examples=40)
@@ -42,14 +44,14 @@ def pytest_sessionstart(session):
     is_whole = session.config.args_source is pytest.Config.ArgsSource.TESTPATHS
     if is_whole and session.config.getoption("numprocesses", None):
         of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
-        collecting = nullcontext()
+        writing = nullcontext()
         if not any(Path(__file__).parent.glob("renderer/trace/__pycache__/test_*")):
-            collect = [sys.executable, "-m", "pytest", "--collect-only", "-q"]
-            collecting = subprocess.Popen(
-                collect, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-            )
-        with collecting:
+            write = [sys.executable, "-m", "tests.support.bytecode"]
+            writing = subprocess.Popen(write, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        with writing:
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
+        if sys.platform.startswith("linux"):
+            os.environ[SERVED] = address_of_server()
     scene = load_scene(BUILTIN_SCENES[0])
     for shadows in (False, True):
         with Tracer(scene, shadows=shadows) as tracer:
@@ -65,11 +67,21 @@ LONGEST = ("test_window", "test_desk", "test_scene_page")
 PAGES = ("/app/web/", "/test_widget_page.py")
 
 
+@functools.cache
+def has_examples(path):
+    """Return whether a file's tests use Hypothesis."""
+    return "from hypothesis" in Path(path).read_text("utf-8")
+
+
 class Scheduling(LoadScopeScheduling):
-    """One process gets a file or a class whole, and all pages, so that they share a browser."""
+    """One process gets a file or a class whole, all pages, so that they share a browser, and all
+    tests with examples: Hypothesis reads the source of all modules in each process that asks it."""
 
     def _split_scope(self, nodeid):
-        return "pages" if any(part in nodeid for part in PAGES) else super()._split_scope(nodeid)
+        if any(part in nodeid for part in PAGES):
+            return "pages"
+        examples = has_examples(nodeid.partition("::")[0])
+        return "examples" if examples else super()._split_scope(nodeid)
 
 
 def pytest_xdist_make_scheduler(config, log):

@@ -12,7 +12,9 @@ import gc
 import json
 import os
 import runpy
+import select
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -22,6 +24,7 @@ from typing import Any
 TESTS = Path(__file__).parents[1]
 PATH = os.pathsep.join((str(TESTS.parent), str(TESTS / "support")))
 STREAMS = ("stdin", "stdout", "stderr")
+SERVED = "LUCIDA_TESTS_LAUNCHING"  # the address of the server, for pytest's workers
 
 
 def environment(folder: Path, display: str | None = None) -> dict[str, str]:
@@ -59,37 +62,50 @@ def launch(
             "limit_s": limit_s,
             "streams": [str(Path(streams) / name) for name in STREAMS],
         }
-        server = _server()
-        server.stdin.write(json.dumps(request) + "\n")
-        server.stdin.flush()
-        status = int(server.stdout.readline())
+        with socket.socket(socket.AF_UNIX) as server:
+            server.connect(os.environ.get(SERVED) or address_of_server())
+            server.sendall(json.dumps(request).encode() + b"\n")
+            status = int(server.makefile().readline())
         told = [(Path(streams) / name).read_text() for name in STREAMS[1:]]
     return subprocess.CompletedProcess(arguments, status, *told)
 
 
 @functools.cache
-def _server() -> subprocess.Popen[str]:
-    """Return the process from which the others are forked. It ends with this one."""
-    variables = os.environ | {"PYTHONPATH": PATH, "OPENBLAS_NUM_THREADS": "1"}
-    server = subprocess.Popen(
-        [sys.executable, "-P", __file__],
-        env=variables,
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
+def address_of_server() -> str:
+    """Start the process from which the others are forked, which ends with this one. Return the path
+    of its socket."""
+    folder = tempfile.TemporaryDirectory()
+    path = str(Path(folder.name) / "socket")
+    with socket.socket(socket.AF_UNIX) as listener:
+        listener.bind(path)
+        listener.listen()
+        server = subprocess.Popen(
+            [sys.executable, "-P", __file__, str(listener.fileno())],
+            env=os.environ | {"PYTHONPATH": PATH, "OPENBLAS_NUM_THREADS": "1"},
+            stdin=subprocess.PIPE,
+            pass_fds=[listener.fileno()],
+        )
+    atexit.register(folder.cleanup)
     atexit.register(server.communicate)
-    return server
+    return path
 
 
-def _serve() -> dict[str, Any]:
+def _serve(listener: socket.socket) -> dict[str, Any]:
     """Answer each request with the exit status of a process. Return the request in that process."""
-    for line in iter(sys.stdin.readline, ""):
-        process = os.fork()
-        if not process:
-            return json.loads(line)
-        status = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
-        os.write(1, f"{status}\n".encode())
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # no process waits for a fork that has answered
+    while sys.stdin not in select.select([listener, sys.stdin], [], [])[0]:
+        with listener.accept()[0] as client:
+            if os.fork():
+                continue
+            signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+            listener.close()
+            request = client.makefile().readline()
+            process = os.fork()
+            if not process:
+                return json.loads(request)
+            status = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
+            client.sendall(f"{status}\n".encode())
+            os._exit(0)
     sys.exit()
 
 
@@ -125,4 +141,4 @@ if __name__ == "__main__":
     for part in ("trees", "walk-plain", "write-plain"):
         compile_part(part)
     gc.freeze()  # or a collection would write to all pages, which then are copied
-    _become(_serve())
+    _become(_serve(socket.socket(fileno=int(sys.argv[1]))))
