@@ -8,8 +8,8 @@ import pytest
 from lucida.renderer.images.shared_numbers import TEXEL_BITS
 from lucida.renderer.scene import flat_textures
 from lucida.renderer.scene.flat import flatten
-from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.limits import TEXTURE_SIDE
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.metal import METAL_DIFFUSE, Metal, packed_metal
 from lucida.renderer.scene.model import DirectionalLight, Scene, SceneObject, Sphere
 from lucida.renderer.scene.texture import (
