@@ -34,11 +34,11 @@ run:
 
 # Two processes more than processors, each with whole files or classes. ARGS="-n 0": all in one process.
 # Nothing may follow: pytest's closing line is the last. Bytecode is kept: some hundred processes
-# would compile all modules anew.
+# would compile all modules anew. Without Hypothesis' plugin, which reads them in each process.
 test: export PYTHONDONTWRITEBYTECODE =
 test:
 	@sh scripts/setup.sh tests
-	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadscope --no-loadscope-reorder $(ARGS)
+	@$(PYTHON_IN_VENV) -m pytest -n auto --dist loadscope --no-loadscope-reorder -p no:hypothesispytest $(ARGS)
 
 # The linters, and the rooms whose tests need neither a window nor a compilation.
 quick: setup

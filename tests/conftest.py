@@ -5,6 +5,8 @@ CI is set it fails. LUCIDA_PLATFORMS names the platforms (tools/attack/platforms
 otherwise tests run on the first that works.
 """
 
+import functools
+import gc
 import os
 import subprocess
 import sys
@@ -30,6 +32,9 @@ settings.register_profile("lucida", deadline=None, derandomize=True, max_example
 settings.register_profile("attack", deadline=None, max_examples=400, print_blob=True)
 settings.load_profile("lucida")
 
+# All modules are in memory: a collection takes long, and Python's own threshold makes many.
+gc.set_threshold(20_000, 10, 10)
+
 
 def pytest_sessionstart(session):
     """Compile the tracer into the cache: or the first test that traces would wait for it, and hear
@@ -43,13 +48,11 @@ def pytest_sessionstart(session):
     is_whole = session.config.args_source is pytest.Config.ArgsSource.TESTPATHS
     if is_whole and session.config.getoption("numprocesses", None):
         of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
-        collecting = nullcontext()
+        writing = nullcontext()
         if not any(Path(__file__).parent.glob("renderer/trace/__pycache__/test_*")):
-            collect = [sys.executable, "-m", "pytest", "--collect-only", "-q"]
-            collecting = subprocess.Popen(
-                collect, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-            )
-        with collecting:
+            write = [sys.executable, "-m", "tests.support.bytecode"]
+            writing = subprocess.Popen(write, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        with writing:
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
         if sys.platform.startswith("linux"):
             os.environ[SERVED] = address_of_server()
@@ -66,13 +69,26 @@ def pytest_xdist_auto_num_workers():
 
 LONGEST = ("test_window", "test_desk", "test_scene_page")
 PAGES = ("/app/web/", "/test_widget_page.py")
+PARSED = ("/test_dead_code.py", "/test_layers.py")
+
+
+@functools.cache
+def has_examples(path):
+    """Return whether a file's tests use Hypothesis."""
+    return "from hypothesis" in Path(path).read_text("utf-8")
 
 
 class Scheduling(LoadScopeScheduling):
-    """One process gets a file or a class whole, and all pages, so that they share a browser."""
+    """One process gets a file or a class whole, all pages, so that they share a browser, both files
+    that parse all modules, and all tests with examples: Hypothesis reads all modules, too."""
 
     def _split_scope(self, nodeid):
-        return "pages" if any(part in nodeid for part in PAGES) else super()._split_scope(nodeid)
+        if any(part in nodeid for part in PAGES):
+            return "pages"
+        if any(part in nodeid for part in PARSED):
+            return "parsed"
+        examples = has_examples(nodeid.partition("::")[0])
+        return "examples" if examples else super()._split_scope(nodeid)
 
 
 def pytest_xdist_make_scheduler(config, log):

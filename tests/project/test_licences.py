@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import functools
 import re
 from importlib import metadata
 
-import pytest
 from packaging.requirements import Requirement
 
 ALLOWED = re.compile(
@@ -39,17 +37,12 @@ def licence(distribution: metadata.Distribution) -> str:
     return " ".join(said)
 
 
-@functools.cache
-def packages() -> dict[str, metadata.Distribution]:
+def test_lucida_can_be_installed_with_all_licences():
     found: dict[str, metadata.Distribution] = {}
     required("camera-lucida", found, ("film", "notebook"))
-    return found
-
-
-@pytest.mark.parametrize("name", packages())
-def test_a_licence_that_lucida_can_be_installed_with(name):
-    said = licence(packages()[name])
-    assert ALLOWED.search(said), said[:300]
-    assert not FORBIDDEN.search(re.sub(r"\bLGPL|Lesser General Public License", "", said)), said[
-        :300
-    ]
+    assert len(found) > 50
+    for name, distribution in found.items():
+        said = licence(distribution)
+        assert ALLOWED.search(said), (name, said[:300])
+        rest = re.sub(r"\bLGPL|Lesser General Public License", "", said)
+        assert not FORBIDDEN.search(rest), (name, rest[:300])

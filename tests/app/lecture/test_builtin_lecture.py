@@ -18,7 +18,9 @@ from lucida.renderer.trace import Tracer
 
 
 class TestTheBuiltInLecture:
-    lecture = both_lectures()
+    @property
+    def lecture(self):
+        return both_lectures()
 
     def test_it_covers_the_lecture_in_its_order(self):
         parts = [part for part, _ in self.lecture.outline()]
