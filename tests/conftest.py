@@ -75,7 +75,7 @@ PARSED = ("/test_dead_code.py", "/test_layers.py")
 @functools.cache
 def has_examples(path):
     """Return whether a file's tests use Hypothesis."""
-    return "from hypothesis" in Path(path).read_text("utf-8")
+    return "from hypothesis" in (Path(__file__).parents[1] / path).read_text("utf-8")
 
 
 class Scheduling(LoadScopeScheduling):
