@@ -22,7 +22,7 @@ def test_fields_are_named_by_their_vectors_bold_and_in_their_colours(lecture):
         ray,
         [w, u, v],
         ray,
-        [e, w, "left, top, d"],
+        [" <strong>e</strong>", w, "left, top, d"],
     ]
 
 
