@@ -14,9 +14,7 @@ def test_fields_are_named_by_their_vectors_bold_and_in_their_colours(lecture):
     by_step = {}
     for step, label in labels:
         by_step.setdefault(step, []).append(label)
-    p, d, e, u, v, w = (
-        f' <strong class="vector-{letter}">{letter}</strong>' for letter in "pdeuvw"
-    )
+    p, d, u, v, w = (f' <strong class="vector-{letter}">{letter}</strong>' for letter in "pduvw")
     ray = [f"origin{p}", f"direction{d}"]
     assert list(by_step.values()) == [
         ray,
