@@ -6,6 +6,7 @@ otherwise tests run on the first that works.
 """
 
 import functools
+import gc
 import os
 import subprocess
 import sys
@@ -30,6 +31,9 @@ from tests.support.launching import SERVED, address_of_server
 settings.register_profile("lucida", deadline=None, derandomize=True, max_examples=40)
 settings.register_profile("attack", deadline=None, max_examples=400, print_blob=True)
 settings.load_profile("lucida")
+
+# All modules are in memory: a collection takes long, and Python's own threshold makes many.
+gc.set_threshold(20_000, 10, 10)
 
 
 def pytest_sessionstart(session):
@@ -65,6 +69,7 @@ def pytest_xdist_auto_num_workers():
 
 LONGEST = ("test_window", "test_desk", "test_scene_page")
 PAGES = ("/app/web/", "/test_widget_page.py")
+PARSED = ("/test_dead_code.py", "/test_layers.py")
 
 
 @functools.cache
@@ -74,12 +79,14 @@ def has_examples(path):
 
 
 class Scheduling(LoadScopeScheduling):
-    """One process gets a file or a class whole, all pages, so that they share a browser, and all
-    tests with examples: Hypothesis reads the source of all modules in each process that asks it."""
+    """One process gets a file or a class whole, all pages, so that they share a browser, both files
+    that parse all modules, and all tests with examples: Hypothesis reads all modules, too."""
 
     def _split_scope(self, nodeid):
         if any(part in nodeid for part in PAGES):
             return "pages"
+        if any(part in nodeid for part in PARSED):
+            return "parsed"
         examples = has_examples(nodeid.partition("::")[0])
         return "examples" if examples else super()._split_scope(nodeid)
 

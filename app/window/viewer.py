@@ -184,7 +184,7 @@ class WindowRun:
         params.fps_idling.enable_idling = not self._take_picture
         if not (self._platform.has_display or self._take_picture):  # nothing else paces frames
             params.fps_idling.fps_max = NULL_FPS
-        params.fps_idling.time_active_after_last_event = 1.0
+        params.fps_idling.time_active_after_last_event = 0.6  # tooltips need 0.4
         params.docking_params, *params.alternative_docking_layouts = layout.docking(
             list(self.window.views.values()), self._draw, self._size, theme.TEXT_PX
         )

@@ -8,7 +8,7 @@ import ast
 import functools
 import re
 
-from test_layers import MODULES, ROOT
+from test_layers import MODULES, ROOT, tree_of
 
 from lucida.renderer.files.cameras import FORMATS
 from lucida.renderer.images.frame import DISPLAY
@@ -82,13 +82,8 @@ def uses(module, tree):
 
 
 @functools.cache
-def trees():
-    return {module: ast.parse(path.read_text("utf-8")) for module, path in MODULES.items()}
-
-
-@functools.cache
 def used():
-    by_python = {use for module, tree in trees().items() for use in uses(module, tree)}
+    by_python = {use for module, path in MODULES.items() for use in uses(module, tree_of(path))}
     shaders = (path for path in ROOT.glob("shaders/**/*.*") if path.suffix != ".py")
     words = {word for path in shaders for word in re.findall(r"\w+", path.read_text("latin-1"))}
     return frozenset(
@@ -100,7 +95,7 @@ def test_what_a_module_defines_is_used():
     unused = {
         (module, name)
         for module in MODULES.keys() - LOADED
-        for name, _ in definitions(trees()[module])
+        for name, _ in definitions(tree_of(MODULES[module]))
         if (module, name) not in used() and name not in FOUND
     }
     assert not unused, "only tests use these, or nobody"

@@ -46,7 +46,7 @@ def until(condition: Callable[[], object], what: str) -> None:
 class Desk:
     """Use it as a context manager. size: (width, height) of the screen."""
 
-    def __init__(self, size: tuple[int, int] = (1280, 720)) -> None:
+    def __init__(self, size: tuple[int, int] = (1280, 560)) -> None:
         self.size = size
         self.program: int | None = None  # the process that has the window
 
@@ -99,8 +99,8 @@ class Desk:
         self.xdotool("mousemove", x, y, *press)
 
     def rest(self) -> None:
-        """Puts the mouse where it points at nothing: the middle of the status line."""
-        self.xdotool("mousemove", self.size[0] // 2, self.size[1] - 30)
+        """Puts the mouse where it points at nothing: the status line's right end."""
+        self.xdotool("mousemove", self.size[0] - 30, self.size[1] - 30)
 
     def type(self, text: str) -> None:
         self.xdotool("type", "--delay", 60, text)
@@ -114,7 +114,7 @@ class Desk:
         last, rest = self.picture(), _Rest(self.program)
         end_s = time.monotonic() + PATIENT_S
         while not rest.is_reached:
-            time.sleep(0.1)
+            time.sleep(0.4)
             now = self.picture()
             if (now != last).any():
                 last, rest = now, _Rest(self.program)
@@ -190,7 +190,7 @@ def _black(picture: np.ndarray) -> float:
 
 class Program:
     """A run of Lucida on a desk; arguments: of the command. home: the user's, kept between runs.
-    The window takes the whole screen, and rests, when this returns."""
+    The window takes the whole screen, and rests, when this returns. begun: that picture."""
 
     def __init__(self, desk: Desk, home: Path, *arguments: str) -> None:
         self._desk = desk
@@ -212,7 +212,7 @@ class Program:
         size = "windowsize", "--sync", window, width, height - 20
         desk.xdotool(*size, "windowmove", window, 0, 0, "windowactivate", "--sync", window)
         desk.rest()
-        desk.still()
+        self.begun = desk.still()
 
     def _is_shown(self) -> bool:
         assert self._process.poll() is None, f"it ended: {self._log.read_text()}"

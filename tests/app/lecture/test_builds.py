@@ -4,6 +4,7 @@ import re
 from dataclasses import replace
 
 import pytest
+from both_lectures import first_lecture
 from plain_text import plain_text
 from sample_lecture import read as read_text
 
@@ -181,7 +182,7 @@ def test_one_line_says_what_to_change():
     one = f"{STEP}answer = 'a'\noptions.outside.see = 'all'\noptions.pair.value = 'r'\n"
     (note,) = read(one).summary
     assert note.endswith("are ignored (and 2 more: lucida lecture x.toml --check)")
-    assert load_lecture(BUILTIN).notes == ()
+    assert first_lecture().notes == ()
 
 
 def test_a_link_is_its_words():

@@ -4,13 +4,13 @@ import re
 from dataclasses import replace
 
 import numpy as np
-from both_lectures import both_lectures
+from both_lectures import both_lectures, read_once
 from PIL import Image
 from plain_text import plain_text
 
 from lucida.app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.reading import BUILTINS, load_lecture
+from lucida.app.lecture.reading import BUILTINS
 from lucida.app.lecture.text import DisplayedFormula
 from lucida.renderer.camera.lenses import Lens
 from lucida.renderer.images.display import to_srgb8
@@ -42,8 +42,9 @@ class TestTheBuiltInLecture:
         assert len(titles) == len(set(titles))
 
     def test_their_names_in_menus_are_their_titles(self):
-        assert [load_lecture(path).title for path in BUILTINS.values()] == list(BUILTINS)
-        assert [len(load_lecture(path).steps) for path in BUILTINS.values()] == [35, 10]
+        lectures = [read_once(path) for path in BUILTINS.values()]
+        assert [lecture.title for lecture in lectures] == list(BUILTINS)
+        assert [len(lecture.steps) for lecture in lectures] == [35, 10]
 
     def test_a_build_can_be_read_while_somebody_speaks(self):
         last = {build.title: build for build in self.lecture.builds}

@@ -5,11 +5,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from both_lectures import first_lecture
 
 from lucida.app.cli import main
 from lucida.app.instruments.objects.choosing import chosen
 from lucida.app.lecture.hiding import HideExercise
-from lucida.app.lecture.reading import BUILTIN, lecture_from_toml, load_lecture
+from lucida.app.lecture.reading import lecture_from_toml
 from lucida.app.lecture.step_options import state_of
 from lucida.app.state.app_state import AppState
 from lucida.renderer.editing import objects
@@ -179,7 +180,7 @@ def test_mistakes_name_line_field_value_and_remedy(line, wrong, told):
 
 
 def test_the_built_in_one_is_solved_by_its_answer():
-    lecture = load_lecture(BUILTIN)
+    lecture = first_lecture()
     step = next(one for one in lecture.steps if isinstance(one.exercise, HideExercise))
     assert isinstance(step.exercise, HideExercise)
     assert said(step.exercise, step.scene) == (False, "100 % of the box can still be seen.")

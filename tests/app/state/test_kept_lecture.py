@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import pytest
+from both_lectures import first_lecture
 from option_changes import with_options
 
 from lucida.app.lecture.reading import BUILTIN, load_lecture
@@ -87,7 +88,7 @@ def test_the_step_with_its_changes_and_answers_comes_back(file, folder):
 
 
 def test_the_built_in_lecture_is_found_wherever_it_is_installed():
-    session = LectureSession(load_lecture(BUILTIN), BUILTIN, (3, 0))
+    session = LectureSession(first_lecture(), BUILTIN, (3, 0))
     session.answers.texts["origin"] = "0, 0"
     state = begin_session(folder=BUILTIN).state  # no place for sessions there: the default
     kept = session.kept(state)
@@ -230,4 +231,4 @@ def test_a_lecture_begun_anew_offers_the_step_where_it_was_left(file, folder, is
     assert (
         LectureSession(load_lecture(file), file, (1 + is_edited, 0), left).left is None
     )  # is there
-    assert LectureSession(load_lecture(BUILTIN), BUILTIN, left=left).left is None  # another one
+    assert LectureSession(first_lecture(), BUILTIN, left=left).left is None  # another one

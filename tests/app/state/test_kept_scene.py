@@ -1,9 +1,9 @@
 """Unsaved edits are kept with the session, as a scene file."""
 
 import pytest
+from both_lectures import first_lecture
 from random_edits import SCENE, TENT
 
-from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.state.app_state import AppState
 from lucida.app.state.session import Arrangement, from_bytes, session_of, to_bytes
 from lucida.app.window import start
@@ -39,7 +39,7 @@ def crashed(scene, folder):
         lambda own, folder: start.kept(start.begin_scene(own), folder=folder),
         lambda own, folder: start.kept(start.begin_scene("spheres"), fresh=True, folder=folder),
         lambda own, folder: start.begin_session(fresh=True, folder=folder),
-        lambda own, folder: start.begin_lecture(load_lecture(BUILTIN), folder=folder),
+        lambda own, folder: start.begin_lecture(first_lecture(), folder=folder),
     ],
     ids=["the session", "its file", "another scene", "fresh", "lecture"],
 )

@@ -41,7 +41,7 @@ def test_closed_streams_are_nobodys(tmp_path):
 
 
 def test_what_would_go_to_a_closed_standard_error_goes_nowhere(tmp_path):
-    end = run("-m", "lucida", "nosuch", closed=(2,), stdout=subprocess.PIPE, cwd=tmp_path)
+    end = run("-m", "lucida", "scene", "nosuch", closed=(2,), stdout=subprocess.PIPE, cwd=tmp_path)
     assert end.returncode == 2
     assert not end.stdout
 

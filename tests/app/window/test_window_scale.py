@@ -15,7 +15,7 @@ from lucida.renderer.files import load_scene
 
 state = AppState.for_scene(load_scene("spheres"))
 state = state.with_options(state.options.with_changes({"preferences": {"font_scale": 1.25}}))
-run = WindowRun(start_platform(want_display=False), state, (2400, 1520), take_picture=True)
+run = WindowRun(start_platform(want_display=False), state, (1700, 1080), take_picture=True)
 run.params.dpi_aware_params.dpi_window_size_factor = 2.0
 told = []
 

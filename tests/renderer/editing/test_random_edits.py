@@ -60,10 +60,10 @@ def test_both_renderers_follow_random_edits_and_agree(start, gl_backend):
     assert refused < 0.3 * SEQUENCES * EDITS_EACH
 
 
-@pytest.mark.parametrize("newline", ["\n", "\r\n"])
-def test_what_is_saved_after_random_edits_is_the_scene_in_its_authors_words(start, newline):
+def test_what_is_saved_after_random_edits_is_the_scene_in_its_authors_words(start):
     path = documents.file_of(start)
-    for seed in range(20):
+    for seed in range(24):
+        newline = "\r\n" if seed % 2 else "\n"
         path.write_bytes(SCENE.replace("\n", newline).encode())
         loaded = load_scene(path)
         sections = sections_of(loaded)

@@ -205,6 +205,9 @@ def test_a_spheres_texture_is_looked_up_near_the_image():
         assert far == pytest.approx(near, abs=1e-9)
         a, b, c, d = far
         assert 0 <= b + a / 2 < 14 and 0 <= d + c / 2 < 8
+        whole = Texture(noise(7, 4), wrap, tuple(scale), tuple(offset)).in_texels((7, 4))[:, 2]
+        periods = (whole - (b, d)) / (14, 8)
+        assert periods == pytest.approx(np.round(periods), abs=1e-9)
         texture = Texture(noise(7, 4), ("clamp", "clamp"), tuple(scale), tuple(offset + 9))
         rows = texture.in_texels((7, 4))
         assert on_sphere(texture, (7, 4)) == pytest.approx((*rows[0, [0, 2]], *rows[1, [1, 2]]))

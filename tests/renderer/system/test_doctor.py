@@ -67,14 +67,15 @@ def test_a_locale_that_is_missing(monkeypatch, tmp_path):
         ({"DISPLAY": ":4711"}, ":4711 does not answer"),
     ],
 )
-def test_a_display_that_is_missing(monkeypatch, variables, told):
+def test_a_display_that_is_missing(capsys, monkeypatch, variables, told):
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
-    check = doctor.check("display")
-    assert not check.works
-    assert told in check.detail or "libX11 is not installed" in check.detail
+    doctor.main("display")
+    works, detail = json.loads(capsys.readouterr().out)
+    assert not works
+    assert told in detail or "libX11 is not installed" in detail
 
 
 @pytest.mark.skipif(os.name != "posix", reason="shell scripts")

@@ -28,7 +28,7 @@ TASKS = {
     if task.kind == "viewing-ray"
 }
 CAMERAS = 20
-RAYS = 80
+RAYS = 40
 SHARES = 5  # of the mistakes, each of which takes a search through all others
 
 SYMMETRIC = {"as far to the left as to the right", "the viewport's middle at 0"}

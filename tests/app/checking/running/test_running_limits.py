@@ -37,7 +37,6 @@ def hasty(student):
 @pytest.mark.parametrize(
     "body",
     [
-        "while True: pass",
         "sum(__import__('itertools').count())",  # lets no other thread run
         "while True: print('x' * 10**6) if i < 10 else None; i += 1",
     ],
@@ -87,7 +86,7 @@ def test_a_file_that_fills_the_disk_is_ended(student):
             "it was ended by signal 9 (Killed)",
         ),
         (
-            "import os; os.closerange(0, 99)\n    while True: pass",
+            "import os, time; os.closerange(0, 99); time.sleep(99)",
             "it closed what it answers through",
         ),
     ],

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from both_lectures import first_lecture
 
 from lucida.app.instruments.laboratory import kinds
 from lucida.app.instruments.laboratory.stored import kept
-from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.renderer.images import to_srgb8
 from lucida.renderer.images.display import from_srgb
 from lucida.renderer.trace import Tracer
@@ -30,7 +30,7 @@ def test_floats_keep_what_8_bits_lose(color):
 
 
 def test_the_lecture_s_bright_scene_is_clipped_in_part_and_its_highlight_returns():
-    step = [one for one in load_lecture(BUILTIN).builds if _page(one) == "exposure"][-1]
+    step = [one for one in first_lecture().builds if _page(one) == "exposure"][-1]
     with Tracer(step.scene) as tracer:
         color = tracer.render(step.view.for_size((60, 60)), (60, 60)).color[..., :3]
     after_ev = step.changes["laboratory"]["after_ev"]

@@ -6,6 +6,7 @@ import itertools
 
 import numpy as np
 import pytest
+from both_lectures import first_lecture
 from hypothesis import given
 from hypothesis import strategies as st
 from looked_at import SIZE, cameras
@@ -21,7 +22,6 @@ from lucida.app.instruments.outside.growing import (
     stage_shares,
     terms,
 )
-from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.text import formulas
 from lucida.app.state.options.outside import OutsideOptions
 from lucida.renderer.camera.camera import Camera
@@ -114,7 +114,7 @@ def test_the_ray_comes_last_and_nothing_is_missing_at_the_end() -> None:
 
 @pytest.mark.parametrize("title", ["Any camera", "Parallel: the pixel moves the origin"])
 def test_each_term_is_in_the_formulas_of_its_step(title) -> None:
-    step = [one for one in load_lecture(BUILTIN).builds if one.title == title][-1]
+    step = [one for one in first_lecture().builds if one.title == title][-1]
     assert step.changes["outside"]["formula"] == END
     for stage in ("w", "u", "v", "ray"):
         lit = [lit_in(latex, stage) for latex in formulas(step.blocks)]

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from both_lectures import first_lecture
 from option_changes import with_options
 from recorded_runs import SCENES
 
@@ -14,7 +15,6 @@ from lucida.app.instruments.stepper import julia, loop_parts, raster_parts
 from lucida.app.instruments.stepper.loop_parts import Model
 from lucida.app.instruments.stepper.loops import PROGRAMS
 from lucida.app.instruments.stepper.source import shown_lines, source_of
-from lucida.app.lecture.reading import BUILTIN, load_lecture
 from lucida.app.lecture.step_options import state_of
 from lucida.app.state.app_state import AppState
 from lucida.renderer.camera.camera import Camera
@@ -99,7 +99,7 @@ def test_every_line_has_its_line_in_julia(program):
 
 
 def test_the_language_stays_from_step_to_step():
-    lecture = load_lecture(BUILTIN)
+    lecture = first_lecture()
     step = lecture.steps[3]
     base = with_options(AppState.for_scene(step.scene), language="julia", shadows=True)
     options = state_of(step, base).options

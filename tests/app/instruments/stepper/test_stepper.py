@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from recorded_runs import SCENES, SIZE, TWO_BALLS, TWO_BOXES, cameras, recorded
+from recorded_runs import SCENES, TWO_BALLS, TWO_BOXES, cameras, recorded
 
 from lucida.app.instruments.stepper import model as stepper
 from lucida.app.instruments.stepper.loop_parts import MISS, Hit, Model, ViewingRay
@@ -19,6 +19,8 @@ from lucida.renderer.compare.raster_and_ray import compare_frames
 from lucida.renderer.files import BUILTIN_SCENES, load_scene
 from lucida.renderer.images.frame import CHANNELS
 from lucida.renderer.trace import Tracer
+
+IMAGE = (16, 12)
 
 # One image, proved against the fast renderers.
 
@@ -36,25 +38,25 @@ def test_all_loops_end_in_the_renderers_image(name: str, rasterizer) -> None:
     with Tracer(scene) as tracer, Tracer(scene, method="reference") as reference:
         for number, camera in enumerate((own, other)):
             by_triangles, by_image = (
-                run(model, camera, SIZE).array for run in (rasterization, image_order)
+                run(model, camera, IMAGE).array for run in (rasterization, image_order)
             )
-            exact = reference.render(camera, SIZE, channels=CHANNELS)
+            exact = reference.render(camera, IMAGE, channels=CHANNELS)
             np.testing.assert_allclose(by_image, exact.color, rtol=1e-6, atol=1e-7)
             if camera is not own:
                 # No centre lies on an edge, or on the line of a checker, where rounding decides.
                 np.testing.assert_allclose(by_triangles, by_image, atol=1e-9, err_msg=number)
             # The loops' colours with the other channels of the same rays: agreement is 2/255, or
             # a line of the image within 1/128 pixel.
-            fast = [one.render(camera, SIZE, channels=CHANNELS) for one in (rasterizer, tracer)]
+            fast = [one.render(camera, IMAGE, channels=CHANNELS) for one in (rasterizer, tracer)]
             for color, frames in ((by_image, fast), (by_triangles, (exact, *fast))):
                 ours = replace(exact, color=color.astype(np.float32))
                 for frame in frames:
-                    result = compare_frames(model.flat, camera, SIZE, frame, ours)
+                    result = compare_frames(model.flat, camera, IMAGE, frame, ours)
                     assert result.unexplained == 0, result.summary()
                     assert result.agree > 0.95 * result.pixels, result.summary()
                     assert result.max_color_error <= 2 / 255
             hits += int((exact.id >= 0).sum())
-    assert hits > 150
+    assert hits > 95
 
 
 # The code on the screen is the code that runs.

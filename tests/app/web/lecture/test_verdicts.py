@@ -30,7 +30,12 @@ def _vector(rng, values):
     return form.format(*(_typed(rng, float(value)) for value in np.nan_to_num(values)))
 
 
-def _answers(rng, task):
+def _rays(task):
+    """Return the right ray, and those of all classic mistakes."""
+    return [task.camera.ray(*task.pixel, task.size), *(ray for _, ray in task.wrong_rays())]
+
+
+def _answers(rng, task, rays):
     """Return what a student may type: right, a classic mistake, longer, backwards, off by a bit."""
 
     def near(values):
@@ -38,7 +43,6 @@ def _answers(rng, task):
         return [factor * value + rng.gauss(0, error) for value in values]
 
     if isinstance(task, RayExercise):
-        rays = [task.camera.ray(*task.pixel, task.size), *(ray for _, ray in task.wrong_rays())]
         origin, direction = rng.choice(rays).origin, rng.choice(rays).direction
         return {"origin": _vector(rng, origin), "direction": _vector(rng, near(direction))}
     given = {}
@@ -53,7 +57,8 @@ def test_hundreds_of_answers_have_the_programs_verdicts(browser, lecture):
     for step in lecture.builds:
         if isinstance(step.exercise, RayExercise | VectorExercise):
             tasks[step.title] = exercises.data_of(step, "", (160, 120))
-            given = [_answers(rng, step.exercise) for _ in range(ANSWERS)]
+            rays = _rays(step.exercise) if isinstance(step.exercise, RayExercise) else []
+            given = [_answers(rng, step.exercise, rays) for _ in range(ANSWERS)]
             cases += [(step.title, texts) for texts in given]
             verdicts += [list(step.exercise.check(texts)) for texts in given]
     tab = browser.new_page()
