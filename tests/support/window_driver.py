@@ -53,7 +53,7 @@ image_view.PAUSE_S = outside_mouse.WHEEL_PAUSE_S = 10.0
 toasts.SHOWN_S = 1e9  # nor what is still told
 ground.SHIFTS = ground.SHIFTS[-1:]  # one picture in place of the mean of five, for smooth edges
 FRAME_S = 1 / 60  # what ImGui takes a frame for: clicks are double ones however slow frames are
-PROMPT_FRAMES = 8  # what the window does by itself takes some frames; threads take longer
+PROMPT_FRAMES = 2  # what the window does by itself takes few frames; threads and pauses are longer
 WAIT_S, LONGEST_WAIT_S = 0.05, 0.5  # the first, and where nothing wakes the window
 ATTEMPTS = 3  # a picture can be taken of a frame in which a window is still being laid out
 PATIENT_S = 300.0  # the first tracing compiles
@@ -122,8 +122,10 @@ class Driver:
         self.stay = False
         if imgui.is_mouse_down(0):  # a test that failed may hold it
             self.ctx.mouse_up(0)
-        self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))
-        self.resize(SIZE)
+        self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))  # which takes two frames
+        if tuple(imgui.get_io().display_size) != SIZE:
+            self.resize(SIZE)
+        self.rest()
 
     def begin_topic(self) -> None:
         """Put the views where they are in a new window: topics share one."""
@@ -180,6 +182,10 @@ class Driver:
     def settle(self) -> None:
         """Until both images are complete and compared."""
         self.frames(2)
+        self.rest()
+
+    def rest(self) -> None:
+        """Until what two frames have begun has come to its end."""
         failures = self.stage.failed.errors
         self.until(lambda: self.window.settled or bool(failures))
         assert not failures, failures
@@ -232,7 +238,7 @@ class Driver:
         in the way.
         """
         imgui.set_nav_cursor_visible(False)
-        if not self.stay:
+        if not self.stay and tuple(imgui.get_io().mouse_pos) != (3, SIZE[1] - 3):
             self.move_to((3, SIZE[1] - 3))
         window, scale = self.picture(), framebuffer_scale()
         cut = []

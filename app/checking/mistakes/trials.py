@@ -77,7 +77,8 @@ class RayTrial:
     def __init__(self, task: CheckTask, cases: Sequence[CheckCase], given: Sequence[Any]) -> None:
         answers = np.array([given, [case.right for case in cases]], float)  # (2, N, 2, 3)
         self._origins, self._directions = answers[..., 0, :], answers[..., 1, :]
-        self._length = np.linalg.norm(self._directions, axis=-1)
+        with np.errstate(all="ignore"):
+            self._length = np.linalg.norm(self._directions, axis=-1)
         self._is_there = np.isfinite(answers).all(axis=(-2, -1))
         made, scale, its = [], [], ray_task(task)
         for case in cases:

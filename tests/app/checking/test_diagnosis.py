@@ -143,6 +143,15 @@ def test_right_answers_of_400_cameras_have_no_name(projection):
         assert candidates(program, trials_of(task, cases[part], given[part])) == ()
 
 
+@pytest.mark.parametrize("odd", [np.nan, np.inf, 1e300])
+def test_rays_without_a_length_have_no_name_and_cost_no_warning(odd):
+    task = ray_task_of("perspective")
+    cases = made_cases(2, 4, "perspective")
+    given = right_rays(cases)
+    given[1] = odd
+    assert candidates(program_of(task), trials_of(task, cases, given)) == ()
+
+
 def answering(task, cases):
     """Return a task's program, and a function from mistakes to its answers with these, in the
     kind's own form."""
