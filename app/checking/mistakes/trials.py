@@ -75,11 +75,7 @@ class RayTrial:
     """Given and correct rays. The lines run for all cases at once."""
 
     def __init__(self, task: CheckTask, cases: Sequence[CheckCase], given: Sequence[Any]) -> None:
-        answers = np.array([given, [case.right for case in cases]], float)  # (2, N, 2, 3)
-        self._origins, self._directions = answers[..., 0, :], answers[..., 1, :]
-        with np.errstate(all="ignore"):
-            self._length = np.linalg.norm(self._directions, axis=-1)
-        self._is_there = np.isfinite(answers).all(axis=(-2, -1))
+        self._answers = np.array([given, [case.right for case in cases]], float)  # (2, N, 2, 3)
         made, scale, its = [], [], ray_task(task)
         for case in cases:
             assert case.camera is not None and case.pixel is not None
@@ -100,15 +96,17 @@ class RayTrial:
         origins, directions = run_rays(program, self._known, mistakes)
         with np.errstate(all="ignore"):
             length = np.linalg.norm(directions, axis=-1)
+            own = np.linalg.norm(self._answers[..., 1, :], axis=-1)
             scale = self._scale + np.linalg.norm(origins, axis=-1) + length
-            turned = self._directions / self._length[..., None] - directions / length[..., None]
+            along = directions / length[..., None]
+            moved = self._answers[..., 0, :] - origins
+            turned = self._answers[..., 1, :] / own[..., None] - along
             error = np.linalg.norm(turned, axis=-1) * length
-            longest = np.maximum(self._length, length)
-            error = np.where((self._length == 0) | (length == 0), longest, error)
-            moved = np.linalg.norm(self._origins - origins, axis=-1)
-            error = np.maximum(moved, error) / scale
+            error = np.where((own == 0) | (length == 0), np.maximum(own, length), error)
+            error = np.maximum(np.linalg.norm(moved, axis=-1), error) / scale
         is_made = np.isfinite(origins).all(axis=-1) & np.isfinite(length) & (length > 0)
-        error = np.where(self._is_there | is_made, np.where(np.isnan(error), np.inf, error), 0.0)
+        is_there = np.isfinite(self._answers).all(axis=(-2, -1)) | is_made
+        error = np.where(is_there, np.where(np.isnan(error), np.inf, error), 0.0)
         given, right = error.max(axis=1).tolist()
         return given, right
 
