@@ -160,6 +160,7 @@ def test_the_probe_says_what_a_pixel_sees(page, tab, scene):
 
 @pytest.mark.parametrize("lens", LENSES[::3], ids=lambda lens: lens.model)
 def test_the_probe_shows_the_way_through_a_lens(page, tab, lens):
+    tab.evaluate("document.querySelector('.lucida-lines')?.replaceChildren()")  # another lens's
     tab.evaluate("lens => lucida.set({lens})", {"model": lens.model, **lens.coefficients})
     named = "[...document.querySelectorAll('.lucida-lines dt')].map(dt => dt.textContent)"
     page.until(f"{named}.includes('direction in the camera, forwards')")
