@@ -62,35 +62,35 @@ def lens_word(text: str) -> Lens | str:
 
 def add_camera_options(parser: argparse.ArgumentParser) -> None:
     """Add the camera's fields as options: each replaces the view's own."""
-    group = parser.add_argument_group("camera", "each number replaces the scene's or view's own")
+    group = parser.add_argument_group("camera", "options override the camera of the scene or view")
     three, one = {"type": numbers(3), "metavar": "X,Y,Z"}, {"type": numbers(1)}
     projections = ("perspective", "parallel")
     options: list[tuple[str, dict[str, Any], str]] = [
         ("eye", three, "the position: --eye 0,0,5"),
         ("target", three, "look at this point, with an orthonormal basis"),
-        ("up", three, "the upward direction then (default: 0,1,0)"),
+        ("up", three, "the up direction for --target (default: 0,1,0)"),
         ("u", three, "the basis: right"),
         ("v", three, "the basis: up"),
         ("w", three, "the basis: back"),
-        ("distance", one | {"metavar": "D"}, "the viewport's, along -w"),
+        ("distance", one | {"metavar": "D"}, "from the eye to the viewport, along -w"),
         ("fov", one | {"metavar": "DEG"}, "vertical field of view, instead of the distance"),
         (
             "viewport",
             {"type": numbers(4), "metavar": "L,R,B,T"},
-            "left, right, bottom, top, used unchanged",
+            "left, right, bottom, top, unchanged without --fit",
         ),
-        ("projection", {"choices": projections}, "the rays' projection"),
+        ("projection", {"choices": projections}, "perspective or parallel viewing rays"),
         ("near", one | {"metavar": "N"}, "clip plane, in units of w"),
         ("far", one | {"metavar": "F"}, "clip plane, in units of w"),
         (
             "lens",
             {"type": lens_word, "metavar": "MODEL:K=V,..."},
-            "brown:k1=-0.2,k2=0.03, equirectangular, ...; none takes it off",
+            "brown:k1=-0.2,k2=0.03, equirectangular, ...; none: no lens",
         ),
         (
             "fit",
             {"action": argparse.BooleanOptionalAction},
-            "widen or heighten the viewport to the image's shape",
+            "extend the viewport to the image's aspect ratio",
         ),
     ]
     for name, how, help in options:

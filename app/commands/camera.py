@@ -53,15 +53,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--size",
         type=common.size,
         metavar="WxH",
-        help="the image's size, if INPUT has none, or another one: the viewport stays",
+        help="the image's size, instead of INPUT's; the viewport stays",
     )
     parser.add_argument(
         "--pixel-origin",
         choices=("center", "corner"),
-        help="the place of whole numbers in INPUT and OUT: pixels' centres (OpenCV)\n"
-        "or corners, with centres at .5 (default: each format's own)",
+        help="where pixel coordinates are whole numbers: at pixels' centres (OpenCV)\n"
+        "or corners (default: each format's own)",
     )
-    parser.add_argument("--no-lens", action="store_true", help="take a camera's lens off")
+    parser.add_argument("--no-lens", action="store_true", help="leave out the lens")
     parser.add_argument("--json", action="store_true", help="describe it as one JSON object")
 
 

@@ -33,18 +33,18 @@ PYTHON = (".py", ".pyw", "")
 NOT_ENDED = "The check did not finish: nothing has been graded."
 
 DESCRIPTION = """\
-Check a student's code, a Python file or any program, and report what it does instead of its task.
+Check a student's code, a Python file or any program, and report what is wrong with it.
 `lucida tasks` lists the tasks; docs/checking.md has the details."""
 
 EPILOG = """\
 The code runs in a process of its own, with limits on time and memory. Without --as, a dishonest
-program could read the correct answers, change its results, end the check, or leave a daemon behind
-that it has started by two forks.
+program could read the correct answers, change its results, end the check, or leave a daemon
+behind.
 exit status: 0 all correct, 1 wrong answers, 2 could not be run (a missing function, an exception,
 the time limit, ...) or a mistake in the arguments, 130 interrupted
 
 examples:
-  lucida check --starter viewing-ray -o rays.py    a file to begin with
+  lucida check --starter viewing-ray -o rays.py    a file to start from
   lucida check rays.py                             all tasks whose functions the file has
   lucida check rays.py --tasks hw2.toml --json results.json
   lucida check --command "julia rays.jl" --task viewing-ray"""
@@ -67,9 +67,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="FILE.toml",
         help="a lecturer's own tasks; or the name of a course (lucida tasks lists them)",
     )
-    parser.add_argument("--task", metavar="NAME", help="this task alone")
+    parser.add_argument("--task", metavar="NAME", help="check only this task")
     parser.add_argument(
-        "--json", metavar="OUT", help="write the results as Gradescope reads them; -: print them"
+        "--json", metavar="OUT", help="write the results for Gradescope; -: print them"
     )
     parser.add_argument(
         "--as",
@@ -80,8 +80,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--python", metavar="PATH", help="run a Python file by this interpreter (default: Lucida's)"
     )
-    which.add_argument("--starter", metavar="TASK", help="write a file to begin with; or `all`")
-    parser.add_argument("-o", dest="output", metavar="FILE", help="the file of --starter")
+    which.add_argument("--starter", metavar="TASK", help="write a file to start from; TASK may be `all`")
+    parser.add_argument("-o", dest="output", metavar="FILE", help="the file that --starter writes")
 
 
 def run(arguments: argparse.Namespace) -> int:

@@ -26,17 +26,18 @@ PAGES = (".html", ".htm", ".pdf")
 DESCRIPTION = """\
 Give a guided lecture: steps of text, each with its own scene, camera and views.
 Without FILE: the built-in lecture, "Images, rays and cameras". A second one, "Cameras beyond
-the formula", has the name cameras-beyond-the-formula.
-It starts in presentation mode, for a hall: capitals are 1/50 of the window's height."""
+the formula", is called cameras-beyond-the-formula.
+It starts in presentation mode: capitals are 1/50 of the window's height."""
 
 EPILOG = """\
 in the lecture:
-  Page Down, Right    next; ends a movement Page Up, Left       back
+  Page Down, Right    next, or the end of a movement
+  Page Up, Left       back
   R                   play the current build again
   End                 continue at the step where it was left last time, until you change steps
   Backspace           back to the step's own scene, camera and views
   Ctrl+Z              undo changes, then the move to the step
-  F9                  presentation mode off and on; the type keeps its size
+  F9                  presentation mode off and on; text keeps its size
 A file is read again whenever it is saved. docs/lectures.md describes the format.
 
 examples:

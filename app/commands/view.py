@@ -23,24 +23,24 @@ draw the same scene from the same camera, side by side, while you drag the camer
 
 commands:
   lucida render SCENE -o OUT     draw one image into a file
-  lucida animate SCENE -o OUT    a film: around the scene, through key cameras
-  lucida compare SCENE           raster against ray: counts, errors, causes
-  lucida pick SCENE ROW COLUMN   what one pixel sees: object, t, point, normal, colour
+  lucida animate SCENE -o OUT    draw a film: around the scene, or through key cameras
+  lucida compare SCENE           compare the two images: counts, errors, causes
+  lucida pick SCENE ROW COLUMN   report what a pixel sees: object, t, point, normal, colour
   lucida camera FILE             describe a camera of any format, or convert it
-  lucida export SCENE -o OUT     scene and camera as glTF, for other programs
-  lucida figure SCENE -o OUT     a figure: outside view, images or a pixel's formulas
-  lucida page SCENE -o OUT.html  the scene, live, as one HTML page for any browser
-  lucida check FILE.py           a student's code, next to the correct answers
-  lucida tasks                   the tasks for such code
-  lucida lecture [FILE]          a guided lecture, step by step
-  lucida scene [SCENE]           its objects, bounds, triangles and lights, and what is odd in it
-  lucida doctor                  what works here, and what to install
-  lucida completion SHELL        completion of commands and options in bash, zsh, fish or tcsh
+  lucida export SCENE -o OUT     write scene and camera as glTF
+  lucida figure SCENE -o OUT     draw a figure: outside view, images or a pixel's formulas
+  lucida page SCENE -o OUT.html  write the scene, live, as one HTML page
+  lucida check FILE.py           check a student's code against the correct answers
+  lucida tasks                   list the tasks for such code
+  lucida lecture [FILE]          give a lecture, step by step
+  lucida scene [SCENE]           list objects, bounds, triangles, lights and problems
+  lucida doctor                  report what works here, and what to install
+  lucida completion SHELL        complete commands and options in bash, zsh, fish or tcsh
 `lucida COMMAND --help` says more. Open a scene file named like a command as ./render."""
 
 EPILOG = """\
 examples:
-  lucida                                  what was open last time; at first, the built-in scene
+  lucida                                  the last session; at first, the built-in scene
   lucida bunny.obj                        a model, lit and framed
   lucida spheres --view corner.toml       a built-in scene, seen by another camera
   lucida spheres --eye=0,2,6              the scene's own camera, moved
@@ -63,7 +63,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--size", type=window_size, metavar="WxH", help="the window's size in pixels"
     )
-    parser.add_argument("--fresh", action="store_true", help="begin without the last session")
+    parser.add_argument("--fresh", action="store_true", help="do not restore the last session")
     add_camera_options(parser)
     parser.add_argument("--version", action="version", version=f"lucida {__version__}")
 
