@@ -80,7 +80,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--python", metavar="PATH", help="run a Python file by this interpreter (default: Lucida's)"
     )
-    which.add_argument("--starter", metavar="TASK", help="write a file to start from; TASK may be `all`")
+    which.add_argument(
+        "--starter", metavar="TASK", help="write a file to start from; TASK may be `all`"
+    )
     parser.add_argument("-o", dest="output", metavar="FILE", help="the file that --starter writes")
 
 
