@@ -56,6 +56,9 @@ def corners(mesh: Mesh) -> np.ndarray:
 def test_the_image_plane_is_framed_between_the_eye_and_the_model(size: float) -> None:
     model = SceneObject(replace(shapes.torus(), transform=np.diag([size, size, size, 1.0])))
     camera = framing.framing_view([model]).camera
+    seen = camera.project(size * shapes.torus().vertices, (1, 1))
+    away = max(np.abs(seen.row).max(), np.abs(seen.column).max())
+    assert away == pytest.approx(0.5 / framing.MARGIN, rel=0.01)
     nearest = min(camera.project(one, (1, 1)).parameter for one in object_corners(model))
     assert 1.2 < nearest < 5  # in distances of the image plane
     side = camera.viewport[1] - camera.viewport[0]

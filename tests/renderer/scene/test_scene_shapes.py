@@ -53,6 +53,13 @@ def test_vertex_normals_are_unit_and_on_the_side_of_their_faces(name):
     assert (agreement[smooth] > 0.49).all()  # a triangle's three-sided cylinder turns by 60 degrees
 
 
+def test_flat_shapes_have_their_area_and_face_upwards():
+    for mesh, area in ((shapes.rectangle(2, 3), 6.0), (shapes.disk(0.5, 256), math.pi / 4)):
+        doubled = face_normals(mesh.vertices, mesh.faces.astype(np.int64))
+        assert (doubled[:, 1] > 0).all()
+        assert doubled.sum(axis=0) / 2 == pytest.approx([0, area, 0], rel=3e-4)
+
+
 def test_every_side_of_a_cone_leads_to_its_tip():
     mesh = shapes.cone(0.5, 2.0, 12)
     sides = mesh.vertices[mesh.faces[:12]].astype(float)

@@ -27,6 +27,14 @@ def test_what_was_given_is_dashed_named_and_of_another_colour() -> None:
         assert {label.role == ROLE for label in labels} == {True, False}
 
 
+def test_the_correct_ray_leads_forwards_as_far_as_it_is_told() -> None:
+    [ray] = (one for one in answers.ray(CORRECT, CORRECT, 6.0) if one.name == "correct ray")
+    assert isinstance(ray, Segments)
+    forwards = CORRECT.direction / np.linalg.norm(CORRECT.direction)
+    ends = [CORRECT.origin, CORRECT.origin + 6.0 * forwards]
+    np.testing.assert_allclose(ray.segments, [ends])
+
+
 def test_arrows_lead_from_the_point_along_both_vectors() -> None:
     given, correct, at = np.array([0, 1, 0.0]), np.array([1, 0, 0.0]), np.array([1, 2, 3.0])
     items = answers.vector("w", "w", at, given, correct)
