@@ -32,7 +32,7 @@ settings.register_profile("lucida", deadline=None, derandomize=True, max_example
 settings.register_profile("attack", deadline=None, max_examples=400, print_blob=True)
 settings.load_profile("lucida")
 
-# All modules are in memory: a collection takes long, and Python's own threshold makes many.
+# With all modules loaded a collection is slow, and Python's own threshold triggers many.
 gc.set_threshold(20_000, 10, 10)
 
 
@@ -51,7 +51,7 @@ def pytest_sessionstart(session):
         writing = nullcontext()
         if not any(Path(__file__).parent.glob("renderer/trace/__pycache__/test_*")):
             write = [sys.executable, "-m", "tests.support.bytecode"]
-            writing = subprocess.Popen(write, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            writing = subprocess.Popen(write, stdout=subprocess.DEVNULL)
         with writing:
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
         if sys.platform.startswith("linux"):
@@ -64,7 +64,8 @@ def pytest_sessionstart(session):
 
 def pytest_xdist_auto_num_workers():
     """Two more than there are processors: a window waits for its display and its clock, too."""
-    return (os.cpu_count() or 1) + 2
+    ours = getattr(os, "sched_getaffinity", lambda _: range(os.cpu_count() or 1))
+    return len(ours(0)) + 2
 
 
 LONGEST = ("test_window", "test_desk", "test_scene_page")

@@ -37,7 +37,7 @@ def licence(distribution: metadata.Distribution) -> str:
     return " ".join(said)
 
 
-def test_lucida_can_be_installed_with_all_licences():
+def test_every_dependency_has_an_allowed_licence():
     found: dict[str, metadata.Distribution] = {}
     required("camera-lucida", found, ("film", "notebook"))
     assert len(found) > 50

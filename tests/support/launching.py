@@ -74,7 +74,8 @@ def launch(
 def address_of_server() -> str:
     """Start the process from which the others are forked, which ends with this one. Return the path
     of its socket."""
-    folder = tempfile.TemporaryDirectory()
+    is_long = len(tempfile.gettempdir()) > 80  # a socket's path has at most 107 characters
+    folder = tempfile.TemporaryDirectory(dir="/tmp" if is_long else None)
     path = str(Path(folder.name) / "socket")
     with socket.socket(socket.AF_UNIX) as listener:
         listener.bind(path)

@@ -180,12 +180,12 @@ class Driver:
                 wait_s = min(1.1 * wait_s, LONGEST_WAIT_S)
 
     def settle(self) -> None:
-        """Until both images are complete and compared."""
+        """Wait until both images are complete and compared."""
         self.frames(2)
         self.rest()
 
     def rest(self) -> None:
-        """Until what two frames have begun has come to its end."""
+        """Wait until everything that two frames started has finished."""
         failures = self.stage.failed.errors
         self.until(lambda: self.window.settled or bool(failures))
         assert not failures, failures
@@ -283,7 +283,7 @@ class Driver:
         self.frames()
 
     def press(self, chord: int) -> None:
-        """Press keys, and draw the frames in which they have their effect. So do the next four."""
+        """Press keys, and draw a frame, in which they have their effect; as the next four do."""
         self.ctx.key_press(chord)
         self.frames()
 

@@ -97,15 +97,20 @@ def test_a_trap_that_is_imported_is_noticed(tmp_path):
         trapped.run("-c", "import json", safe=False)
 
 
-def test_a_command_that_compiles_imports_nothing_from_the_current_folder(here):
-    """It traces with a kernel missing, so that processes compile for it."""
-    line = "-m lucida render scene.toml -o ray.png --renderer ray --size 32x32"
-    here.run(*line.split())
+# The first traces with a kernel missing, so that processes compile for it.
+@pytest.mark.parametrize(
+    "line",
+    [
+        "render scene.toml -o ray.png --renderer ray --size 32x32",
+        "models/large.obj --screenshot window.png --size 640x480",
+    ],
+)
+def test_commands_import_nothing_from_the_current_folder(here, line):
+    here.run("-m", "lucida", *line.split())
 
 
 def test_commands_in_one_process_import_nothing_from_the_current_folder(here):
     lines = (
-        "models/large.obj --screenshot window.png --size 640x480",
         "render models/large.obj -o raster.png --size 32x32",
         "compare spheres --size 32x32",
         "scene",

@@ -86,7 +86,7 @@ def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk, first_day, 
         left = at_rest(desk)
         program.quit("starts in presentation mode")
     kept = session(tmp_path)
-    assert (kept["lecture"]["number"] > 0, kept["lecture"]["in_step"]) == (True, True)
+    assert (kept["lecture"]["number"], kept["lecture"]["in_step"]) == (1, True)
     assert {"Outside", "Raster"} <= {*kept["arrangement"]["visible"]}  # two views
     assert kept["arrangement"]["layout"] == "Lecture"
     assert "Lecture" in kept["arrangement"]["visible"]

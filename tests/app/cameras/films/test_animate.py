@@ -106,7 +106,7 @@ def test_workers_draw_the_same_even_if_one_is_killed(tmp_path):
     there, killed = [], False
     for number, png in workers.drawn_by_workers(scene, look, shots, 2):
         there.append((number, png))
-        if len(there) >= len(shots) // 2 and not killed:  # a new one would have to start first
+        if len(there) >= len(shots) // 2 and not killed:  # a replacement takes long to start
             killed = kill_a_worker()
     assert killed
     assert sorted(number for number, _ in there) == list(shots)  # nothing lost, nothing twice

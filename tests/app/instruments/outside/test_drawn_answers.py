@@ -27,7 +27,7 @@ def test_what_was_given_is_dashed_named_and_of_another_colour() -> None:
         assert {label.role == ROLE for label in labels} == {True, False}
 
 
-def test_the_correct_ray_leads_forwards_as_far_as_it_is_told() -> None:
+def test_the_correct_ray_points_forwards_and_has_the_given_length() -> None:
     [ray] = (one for one in answers.ray(CORRECT, CORRECT, 6.0) if one.name == "correct ray")
     assert isinstance(ray, Segments)
     forwards = CORRECT.direction / np.linalg.norm(CORRECT.direction)
