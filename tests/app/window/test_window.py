@@ -280,7 +280,7 @@ run.run()
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
-def test_signals_close_the_window_and_the_next_start_finds_its_layout(tmp_path, xvfb):
+def test_signals_close_the_window_and_its_layout_is_saved(tmp_path, xvfb):
     script = """
 import os, signal, sys, threading, time
 from lucida.app.window.platform import start_platform
@@ -302,7 +302,7 @@ def watch():
 threading.Thread(target=watch, daemon=True).start()
 run.run()
 """
-    sizes = []
+    sizes, saved = [], []
     for name in ("SIGTERM", "SIGINT"):
         done = launch(["-c", script, name], tmp_path, xvfb, limit_s=LIMIT_S / 2)
         sizes.append(done.stdout)
@@ -310,5 +310,6 @@ run.run()
             assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")
         else:
             assert done.stderr.rstrip().endswith("KeyboardInterrupt")  # which the command tells
-        assert (tmp_path / "config" / "lucida" / "window.ini").exists()
+        saved.append((tmp_path / "config" / "lucida" / "window.ini").stat().st_mtime_ns)
+    assert saved[0] < saved[1]
     assert sizes[0] == sizes[1] != ""
