@@ -4,8 +4,7 @@
 
 runs every function of scenarios/TOPIC.py whose name begins with `drive_` (or the one named), in
 order, in one window, and writes a JSON object from their names to "" or the traceback of their
-failure. FOLDER has the last pictures of one that failed. test_window.py runs it and tells the
-results.
+failure. FOLDER has the last pictures of one that failed. test_window.py runs it.
 """
 
 from __future__ import annotations

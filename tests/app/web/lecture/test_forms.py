@@ -1,4 +1,4 @@
-"""What a page asks and adds: the labels of an exercise's fields, a step's notes."""
+"""The fields of an exercise's form, and a step's notes, on a lecture's page."""
 
 from __future__ import annotations
 
