@@ -4,36 +4,34 @@ from __future__ import annotations
 
 import base64
 import contextlib
-import shutil
 import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
+from needed import need
+
+CHROMIUM = "chromium", "chromium-browser"
 
 
 @contextlib.contextmanager
 def chromium() -> Iterator[Any]:
-    """Yield a browser. Skip the tests that need it where the system has none."""
-    pytest.importorskip("playwright")
+    """Yield a browser."""
     from playwright.sync_api import sync_playwright
 
-    program = shutil.which("chromium") or shutil.which("chromium-browser")
-    if program is None:
-        pytest.skip("no Chromium is installed")
     with sync_playwright() as playwright:
         arguments = ["--no-sandbox", "--enable-unsafe-swiftshader"]
-        browser = playwright.chromium.launch(executable_path=program, args=arguments)
+        browser = playwright.chromium.launch(executable_path=need(*CHROMIUM), args=arguments)
         yield browser
         browser.close()
 
 
 def axe_script() -> str:
     """Return axe-core, which finds what keeps people from using a page."""
-    package = pytest.importorskip("axe_playwright_python")
-    return Path(package.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
+    import axe_playwright_python
+
+    return Path(axe_playwright_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
 
 
 class Page:

@@ -3,10 +3,7 @@
 import ast
 import functools
 import json
-import os
-import shutil
 import signal
-import subprocess
 import sys
 from pathlib import Path
 
@@ -144,27 +141,6 @@ def test_no_opengl_is_one_clear_error(monkeypatch):
     with pytest.raises(LucidaError, match=r"OpenGL 3\.3.*install"):
         platform.start_platform(want_display=False)
     platform.glfw.terminate()
-
-
-@pytest.fixture
-def xvfb():
-    """A display that nobody looks at."""
-    program = shutil.which("Xvfb")
-    if program is None:
-        pytest.skip("Xvfb is not installed")
-    read, write = os.pipe()
-    arguments = [program, "-displayfd", str(write), "-screen", "0", "1400x900x24"]
-    server = subprocess.Popen(arguments, pass_fds=(write,), stderr=subprocess.DEVNULL)
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        number = pipe.readline().strip()
-    try:
-        if not number:
-            pytest.skip("Xvfb did not start")
-        yield f":{number}"
-    finally:
-        server.terminate()
-        server.wait()
 
 
 def test_the_window_is_shown_with_its_first_picture(tmp_path, xvfb):

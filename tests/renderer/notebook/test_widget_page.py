@@ -3,17 +3,13 @@
 import base64
 import json
 import time
-from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from lucida.renderer.notebook import explore
 
-pytestmark = [
-    pytest.mark.skipif(find_spec("anywidget") is None, reason="anywidget is missing"),
-    pytest.mark.filterwarnings("ignore"),  # Playwright's own
-]
+pytestmark = pytest.mark.filterwarnings("ignore")  # Playwright's own
 SIZE = (80, 60)
 FULL = "canvas[data-factor='1']"
 PAGE = """<!doctype html><style>%(css)s</style><div id="place"></div><script type="module">
