@@ -13,10 +13,9 @@ from launching import launch
 from PIL import Image
 
 DRIVER = Path(__file__).parents[2] / "support" / "window_driver.py"
-LIMIT_S = 560  # one window
-pytestmark = pytest.mark.timeout(LIMIT_S + 60)
-DRIVES_LIMIT_S = 1500  # a window with many drives, on a busy machine
-drives_take_long = pytest.mark.timeout(DRIVES_LIMIT_S + 60)
+one_window = pytest.mark.timeout(620)
+pytestmark = one_window
+drives_take_long = pytest.mark.timeout(1560)  # a window with many drives, on a busy machine
 WINDOWS = 8  # each takes seconds to open: topics share them
 TOPICS = sorted((Path(__file__).parent / "scenarios").glob("*.py"))
 DRIVES = {
@@ -32,7 +31,7 @@ DRIVES = {
 def drive(folder, *names):
     report = folder / "report.json"
     arguments = [str(DRIVER), str(report), str(folder), *names]
-    done = launch(arguments, folder, limit_s=DRIVES_LIMIT_S)
+    done = launch(arguments, folder)
     assert report.exists(), done.stdout[-2000:] + done.stderr[-2000:]
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     return json.loads(report.read_text())
@@ -280,7 +279,7 @@ run.run()
 """
     sizes, saved = [], []
     for name in ("SIGTERM", "SIGINT"):
-        done = launch(["-c", script, name], tmp_path, xvfb, limit_s=LIMIT_S / 2)
+        done = launch(["-c", script, name], tmp_path, xvfb)
         sizes.append(done.stdout)
         if name == "SIGTERM":
             assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")
