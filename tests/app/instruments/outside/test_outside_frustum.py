@@ -127,9 +127,7 @@ class TestOutsideCamera:
             row, column, _ = camera.project(points, (1000, 1000))
             extent = max(np.ptp(row), np.ptp(column))
             assert 850 < extent < 1000
-            above = (
-                (0, 0, -1) if abs(way[1]) == 1 else (0, 1, 0)
-            )  # y is straight on
+            above = (0, 0, -1) if abs(way[1]) == 1 else (0, 1, 0)  # y is straight on
             assert np.dot(camera.v, above) == pytest.approx(1)
 
     def test_it_is_finite_without_finite_points(self) -> None:
