@@ -4,36 +4,34 @@ from __future__ import annotations
 
 import base64
 import contextlib
-import shutil
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pytest
+from needed import need
+from waiting import wait_for
+
+CHROMIUM = "chromium", "chromium-browser"
 
 
 @contextlib.contextmanager
 def chromium() -> Iterator[Any]:
-    """Yield a browser. Skip the tests that need it where the system has none."""
-    pytest.importorskip("playwright")
+    """Yield a browser."""
     from playwright.sync_api import sync_playwright
 
-    program = shutil.which("chromium") or shutil.which("chromium-browser")
-    if program is None:
-        pytest.skip("no Chromium is installed")
     with sync_playwright() as playwright:
         arguments = ["--no-sandbox", "--enable-unsafe-swiftshader"]
-        browser = playwright.chromium.launch(executable_path=program, args=arguments)
+        browser = playwright.chromium.launch(executable_path=need(*CHROMIUM), args=arguments)
         yield browser
         browser.close()
 
 
 def axe_script() -> str:
     """Return axe-core, which finds what keeps people from using a page."""
-    package = pytest.importorskip("axe_playwright_python")
-    return Path(package.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
+    import axe_playwright_python
+
+    return Path(axe_playwright_python.__file__).with_name("axe.min.js").read_text(encoding="utf-8")
 
 
 class Page:
@@ -58,14 +56,19 @@ class Page:
         if not url.startswith(("file:", "blob:", "data:")):
             self.problems.append(url)
 
-    def until(self, expression: str, wait_s: float = 60.0) -> None:
+    def until(self, expression: str) -> None:
         """Wait until an expression is true. (Playwright's own waiting needs eval, which pages
         forbid.)
         """
-        end = time.monotonic() + wait_s
-        while not self.tab.evaluate(expression):
-            assert time.monotonic() < end, expression
-            self.tab.wait_for_timeout(50)
+        wait_for(lambda: self.tab.evaluate(expression))
+
+    def drawn(self) -> None:
+        """Wait until the figure has drawn its camera, and the workers have answered the probe.
+
+        The figure asked for the frame before, and a worker answers in the order of the questions.
+        """
+        asked = "requestAnimationFrame(() => lucida.pixels('ray', [8, 8]).then(() => done()))"
+        self.tab.evaluate(f"new Promise((done) => {asked})")
 
     def axe(self, options: str = "") -> list[Any]:
         """Return what axe finds. (DevTools evaluate it where the page's policy forbids it.)"""

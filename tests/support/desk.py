@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import contextlib
 import os
-import shutil
 import subprocess
 import sys
 import threading
@@ -18,21 +17,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
+from needed import need, x_server
 from PIL import Image, ImageGrab
 
 ROOT = Path(__file__).parents[2]
 PATIENT_S = 400.0  # the first picture of an installation waits for compiled kernels
-NEEDED = ("Xvfb", "openbox", "xdotool")
-INSTALL = "sudo apt-get install --no-install-recommends xvfb openbox xdotool"
 STATUS_PX = 50
 REST_S = 2.5  # longer than the window ever waits between two frames
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-
-
-def missing() -> str:
-    """Why there can be no desk here; empty where there can."""
-    absent = [name for name in NEEDED if shutil.which(name) is None]
-    return f"no {', '.join(absent)} here; run: {INSTALL}" if absent else ""
 
 
 def until(condition: Callable[[], object], what: str) -> None:
@@ -50,23 +42,17 @@ class Desk:
         self.program: int | None = None  # the process that has the window
 
     def __enter__(self) -> Desk:
-        read, write = os.pipe()
-        screen = f"{self.size[0]}x{self.size[1]}x24"
-        self._server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", screen], pass_fds=(write,), **QUIET
-        )
-        os.close(write)
-        with os.fdopen(read) as pipe:
-            self.display = f":{pipe.readline().strip()}"
-        assert self.display != ":", "Xvfb did not start"
-        self._manager = subprocess.Popen(["openbox"], env=self.environment, **QUIET)
+        need("xdotool")
+        self._server = x_server(self.size)
+        self.display = self._server.__enter__()
+        self._manager = subprocess.Popen([need("openbox")], env=self.environment, **QUIET)
         self.key("shift")  # answers once the display takes input
         return self
 
     def __exit__(self, *exception: object) -> None:
-        for process in (self._manager, self._server):
-            process.kill()
-            process.wait()
+        self._manager.kill()
+        self._manager.wait()
+        self._server.__exit__(*exception)
 
     @property
     def environment(self) -> dict[str, str]:

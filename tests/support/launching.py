@@ -18,11 +18,12 @@ import socket
 import subprocess
 import sys
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-TESTS = Path(__file__).parents[1]
-PATH = os.pathsep.join((str(TESTS.parent), str(TESTS / "support")))
+SUPPORT = str(Path(__file__).parent)
+PATH = os.pathsep.join((str(Path(__file__).parents[2]), SUPPORT))
 STREAMS = ("stdin", "stdout", "stderr")
 SERVED = "LUCIDA_TESTS_LAUNCHING"  # the address of the server, for pytest's workers
 
@@ -39,35 +40,38 @@ def launch(
     arguments: list[str],
     folder: Path,
     display: str | None = None,
-    limit_s: float = 560,
     fresh: bool = False,
 ) -> subprocess.CompletedProcess[str]:
     """Run Python in a folder, with `-c SCRIPT`, `-m lucida` or a script's name, and more arguments.
 
-    Return the process once it has ended; SIGALRM ends one that takes longer than limit_s. fresh:
-    True for a process that begins with no module imported.
+    Return the process once it has ended. It is killed if the test ends first, at pytest's limit for
+    instance. fresh: True for a process that begins with no module imported.
     """
     variables = environment(folder, display)
     if fresh or not sys.platform.startswith("linux"):  # elsewhere, a library may not be forked
         command = [sys.executable, *arguments]
-        return subprocess.run(
-            command, cwd=folder, env=variables, capture_output=True, text=True, timeout=limit_s
-        )
+        return subprocess.run(command, cwd=folder, env=variables, capture_output=True, text=True)
     with tempfile.TemporaryDirectory() as streams:
-        (Path(streams) / "stdin").touch()
+        files = [Path(streams) / name for name in STREAMS]
+        for file in files:
+            file.touch()
         request = {
             "arguments": arguments,
             "folder": str(folder),
             "environment": variables,
-            "limit_s": limit_s,
-            "streams": [str(Path(streams) / name) for name in STREAMS],
+            "streams": [str(file) for file in files],
         }
-        with socket.socket(socket.AF_UNIX) as server:
-            server.connect(os.environ.get(SERVED) or address_of_server())
-            server.sendall(json.dumps(request).encode() + b"\n")
-            status = int(server.makefile().readline())
-        told = [(Path(streams) / name).read_text() for name in STREAMS[1:]]
-    return subprocess.CompletedProcess(arguments, status, *told)
+        address, status = os.environ.get(SERVED) or address_of_server(), b""
+        try:
+            with socket.socket(socket.AF_UNIX) as server, suppress(OSError):
+                server.connect(address)
+                server.sendall(json.dumps(request).encode() + b"\n")
+                status = server.recv(9)
+        finally:
+            told = [file.read_text() for file in files[1:]]
+            sys.stderr.write(told[1])  # pytest shows it if the test fails
+    assert status, "the server of tests/support/launching.py has ended"
+    return subprocess.CompletedProcess(arguments, int(status), *told)
 
 
 @functools.cache
@@ -104,8 +108,11 @@ def _serve(listener: socket.socket) -> dict[str, Any]:
             process = os.fork()
             if not process:
                 return json.loads(request)
+            if client in select.select([client, os.pidfd_open(process)], [], [])[0]:
+                os.kill(process, signal.SIGKILL)  # its test has ended, and closed the client
             status = os.waitstatus_to_exitcode(os.waitpid(process, 0)[1])
-            client.sendall(f"{status}\n".encode())
+            with suppress(OSError):
+                client.sendall(f"{status}\n".encode())
             os._exit(0)
     sys.exit()
 
@@ -113,13 +120,12 @@ def _serve(listener: socket.socket) -> dict[str, Any]:
 def _become(request: dict[str, Any]) -> None:
     """Run what is asked for, as if this process had been started for it."""
     for number, name in enumerate(request["streams"]):
-        opened = os.open(name, os.O_RDWR | os.O_CREAT)
+        opened = os.open(name, os.O_RDWR)
         os.dup2(opened, number)
         os.close(opened)
     os.chdir(request["folder"])
     os.environ.clear()
     os.environ.update(request["environment"])
-    signal.alarm(int(request["limit_s"]))
     kind, *rest = request["arguments"]
     match kind:
         case "-c":

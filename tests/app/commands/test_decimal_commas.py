@@ -12,6 +12,7 @@ import pytest
 from lucida.app.cli import main
 from lucida.app.ui.explaining.arithmetic import number
 from lucida.renderer.system.errors import LucidaError
+from tests.support.needed import absent
 from tests.support.refusals import refused
 
 COMMANDS = (
@@ -38,7 +39,7 @@ def german(tmp_path):
     made.parent.mkdir()
     program, source = shutil.which("localedef"), Path("/usr/share/i18n/locales/de_DE")
     if program is None or not source.exists():
-        pytest.skip("no localedef, or not its source of German")
+        absent("no localedef, or not its source of German")
     text = re.sub(
         r"(?s)\nLC_COLLATE\n.*?\nEND", '\nLC_COLLATE\ncopy "POSIX"\nEND', source.read_text()
     )

@@ -1,20 +1,20 @@
 """The instrument of docs/architecture.md, built from that text and opened in the window."""
 
 import json
+import os
 import re
 import shutil
 import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-from launching import PATH, environment
-from test_window import LIMIT_S
+from launching import SUPPORT, environment
+from test_window import one_window
 
 ROOT = Path(__file__).parents[3]
 MOST_LINES = 60
 FILE = r"`(app/[\w/]*depths[\w/]*\.py)`(?:(?!```).)*```python\n(.*?)```"  # a name, and its text
-pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+pytestmark = one_window
 
 WINDOW = """
 import json
@@ -89,14 +89,13 @@ def test_the_documents_instrument_opens_in_the_window(tmp_path):
         "Depths",
         "lucida.app.instruments.depths.view",
     )
-    variables = environment(tmp_path) | {"PYTHONPATH": f"{copy}:{PATH.split(':')[-1]}"}
+    variables = environment(tmp_path) | {"PYTHONPATH": os.pathsep.join((str(copy), SUPPORT))}
     done = subprocess.run(
         [sys.executable, "-c", WINDOW, str(ROOT / "lucida")],
         cwd=tmp_path,
         env=variables,
         capture_output=True,
         text=True,
-        timeout=LIMIT_S,
     )
     assert done.returncode == 0, done.stderr[-2000:]
     told = json.loads((tmp_path / "told.json").read_text())

@@ -3,10 +3,7 @@
 import ast
 import functools
 import json
-import os
-import shutil
 import signal
-import subprocess
 import sys
 from pathlib import Path
 
@@ -16,10 +13,9 @@ from launching import launch
 from PIL import Image
 
 DRIVER = Path(__file__).parents[2] / "support" / "window_driver.py"
-LIMIT_S = 560  # one window
-pytestmark = pytest.mark.timeout(LIMIT_S + 60)
-DRIVES_LIMIT_S = 1500  # a window with many drives, on a busy machine
-drives_take_long = pytest.mark.timeout(DRIVES_LIMIT_S + 60)
+one_window = pytest.mark.timeout(620)
+pytestmark = one_window
+drives_take_long = pytest.mark.timeout(1560)  # a window with many drives, on a busy machine
 WINDOWS = 8  # each takes seconds to open: topics share them
 TOPICS = sorted((Path(__file__).parent / "scenarios").glob("*.py"))
 DRIVES = {
@@ -35,7 +31,7 @@ DRIVES = {
 def drive(folder, *names):
     report = folder / "report.json"
     arguments = [str(DRIVER), str(report), str(folder), *names]
-    done = launch(arguments, folder, limit_s=DRIVES_LIMIT_S)
+    done = launch(arguments, folder)
     assert report.exists(), done.stdout[-2000:] + done.stderr[-2000:]
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     return json.loads(report.read_text())
@@ -164,27 +160,6 @@ def test_no_opengl_is_one_clear_error(monkeypatch):
     with pytest.raises(LucidaError, match=r"OpenGL 3\.3.*install"):
         platform.start_platform(want_display=False)
     platform.glfw.terminate()
-
-
-@pytest.fixture
-def xvfb():
-    """A display that nobody looks at."""
-    program = shutil.which("Xvfb")
-    if program is None:
-        pytest.skip("Xvfb is not installed")
-    read, write = os.pipe()
-    arguments = [program, "-displayfd", str(write), "-screen", "0", "1400x900x24"]
-    server = subprocess.Popen(arguments, pass_fds=(write,), stderr=subprocess.DEVNULL)
-    os.close(write)
-    with os.fdopen(read) as pipe:
-        number = pipe.readline().strip()
-    try:
-        if not number:
-            pytest.skip("Xvfb did not start")
-        yield f":{number}"
-    finally:
-        server.terminate()
-        server.wait()
 
 
 def test_the_window_is_shown_with_its_first_picture(tmp_path, xvfb):
@@ -322,7 +297,7 @@ run.run()
 """
     layouts = "Side by side", "Compare"
     for name, begun, left in (("SIGTERM", *layouts), ("SIGINT", *reversed(layouts))):
-        done = launch(["-c", script, name, left], tmp_path, xvfb, limit_s=LIMIT_S / 2)
+        done = launch(["-c", script, name, left], tmp_path, xvfb)
         assert done.stdout == f"{begun}\n", done.stderr
         if name == "SIGTERM":
             assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")

@@ -31,7 +31,7 @@ print(*told, verdict.comparison.unexplained, *run.window.renderers.size)
 
 
 def test_everything_is_twice_as_large(tmp_path):
-    done = launch(["-c", SCRIPT], tmp_path, limit_s=240)
+    done = launch(["-c", SCRIPT], tmp_path)
     assert done.returncode == 0, done.stderr
     font, padding, line, main, unexplained, width, height = map(float, done.stdout.split())
     scale = 2 * 1.25

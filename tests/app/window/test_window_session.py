@@ -8,8 +8,7 @@ from launching import launch
 
 from lucida.app.state.session import from_bytes
 
-LIMIT_S = 500
-pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+pytestmark = pytest.mark.timeout(560)
 
 WINDOW = """
 import sys
@@ -62,7 +61,7 @@ stepped(run, step)
 
 
 def window(folder, mode):
-    return launch(["-c", WINDOW, str(folder), mode], folder, limit_s=LIMIT_S)
+    return launch(["-c", WINDOW, str(folder), mode], folder)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")

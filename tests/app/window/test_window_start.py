@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from launching import launch
 from PIL import Image
-from test_window import LIMIT_S
+from test_window import one_window
 
-pytestmark = pytest.mark.timeout(LIMIT_S + 60)
+pytestmark = one_window
 
 WINDOW = """
 import json, sys

@@ -4,7 +4,9 @@ import json
 from itertools import chain
 from pathlib import Path
 
+import nbformat
 import pytest
+from nbclient import NotebookClient
 
 ROOT = Path(__file__).parents[3]
 LARGEST = 100_000  # characters of a cell's output
@@ -13,8 +15,6 @@ LARGEST = 100_000  # characters of a cell's output
 @pytest.mark.filterwarnings("ignore")  # of Jupyter's own packages
 def test_they_run_from_top_to_bottom(monkeypatch):
     """One after another in one kernel, whose names are cleared in between: it starts slowly."""
-    nbformat = pytest.importorskip("nbformat")
-    client = pytest.importorskip("nbclient").NotebookClient
     monkeypatch.setenv("PYTHONPATH", str(ROOT))
     books = [nbformat.read(path, 4) for path in sorted((ROOT / "docs/notebooks").glob("*.ipynb"))]
     assert len(books) == 3
@@ -23,7 +23,7 @@ def test_they_run_from_top_to_bottom(monkeypatch):
         assert not any(cell.outputs for cell in book.cells)
         book.cells.append(nbformat.v4.new_code_cell("%reset -f"))
     whole = nbformat.v4.new_notebook(cells=list(chain(*(book.cells for book in books))))
-    client(whole, timeout=120).execute()
+    NotebookClient(whole, timeout=120).execute()
     for book in books:
         outputs = [output for cell in book.cells for output in cell.outputs]
         assert not [output.text for output in outputs if output.get("name") == "stderr"]

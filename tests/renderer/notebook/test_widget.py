@@ -2,7 +2,6 @@
 
 import io
 import sys
-from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -13,7 +12,6 @@ from lucida.renderer.notebook import explore
 from lucida.renderer.notebook.sliders import is_level, sliders_of, with_number
 from lucida.renderer.scene.focus import Focus
 
-pytestmark = pytest.mark.skipif(find_spec("anywidget") is None, reason="anywidget is missing")
 SIZE = (80, 60)
 MIDDLE = [30, 40]
 

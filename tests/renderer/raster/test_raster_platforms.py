@@ -1,7 +1,6 @@
 """OpenGL platforms: the choice, several contexts in turn, a window's context, and giving back."""
 
 import os
-import shutil
 import subprocess
 import sys
 
@@ -9,6 +8,7 @@ import moderngl
 import numpy as np
 import pytest
 from import_path import import_path
+from needed import absent
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.raster import Display, Look, Rasterizer, Section, contexts, current
@@ -35,7 +35,7 @@ def foreign():
     try:
         context = moderngl.create_context(standalone=True, backend="egl")
     except Exception as error:
-        pytest.skip(f"no EGL: {error}")
+        absent(f"no EGL: {error}")
     yield context
     with context:
         assert context.error == "GL_NO_ERROR"
@@ -101,26 +101,12 @@ print("done")
 """
 
 
-@pytest.mark.skipif(shutil.which("Xvfb") is None, reason="Xvfb is not installed")
-@on_each_platform
-def test_beside_a_windows_context_on_x11(gl_backend):
+@pytest.mark.parametrize("_session_rasterizer", ["osmesa"], indirect=True)
+def test_beside_a_windows_context_on_x11(gl_backend, xvfb):
     """GLX, EGL and OSMesa in one thread."""
-    with subprocess.Popen(
-        ["Xvfb", "-displayfd", "1", "-screen", "0", "64x64x24"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-    ) as server:
-        try:
-            display = f":{server.stdout.readline().decode().strip()}"
-            done = subprocess.run(
-                [sys.executable, "-c", WITH_A_WINDOW],
-                env={**os.environ, "DISPLAY": display, "PYTHONPATH": import_path(__file__)},
-                capture_output=True,
-                timeout=60,
-                text=True,
-            )
-        finally:
-            server.terminate()
+    environment = {**os.environ, "DISPLAY": xvfb, "PYTHONPATH": import_path(__file__)}
+    command = [sys.executable, "-c", WITH_A_WINDOW]
+    done = subprocess.run(command, env=environment, capture_output=True, timeout=280, text=True)
     assert done.stdout == "done\n", done.stderr
 
 
