@@ -58,8 +58,7 @@ class Coarseness:
         self._pixel_s[factor] = min(pixel_s, (last_s + pixel_s) / 2)
         if factor == self._factor:
             self._misses = self._misses + 1 if time_s > TOO_SLOW * self._budget_s else 0
-            within = factor > 1 and 4 * time_s <= self._budget_s
-            self._hits = self._hits + 1 if within else 0
+            self._hits = self._hits + 1 if 4 * time_s <= self._budget_s else 0
 
     def forget(self) -> None:
         """Drop all measurements, because the content will change."""

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import base64
 import contextlib
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from needed import need
+from waiting import wait_for
 
 CHROMIUM = "chromium", "chromium-browser"
 
@@ -56,14 +56,19 @@ class Page:
         if not url.startswith(("file:", "blob:", "data:")):
             self.problems.append(url)
 
-    def until(self, expression: str, wait_s: float = 60.0) -> None:
+    def until(self, expression: str) -> None:
         """Wait until an expression is true. (Playwright's own waiting needs eval, which pages
         forbid.)
         """
-        end = time.monotonic() + wait_s
-        while not self.tab.evaluate(expression):
-            assert time.monotonic() < end, expression
-            self.tab.wait_for_timeout(50)
+        wait_for(lambda: self.tab.evaluate(expression))
+
+    def drawn(self) -> None:
+        """Wait until the figure has drawn its camera, and the workers have answered the probe.
+
+        The figure asked for the frame before, and a worker answers in the order of the questions.
+        """
+        asked = "requestAnimationFrame(() => lucida.pixels('ray', [8, 8]).then(() => done()))"
+        self.tab.evaluate(f"new Promise((done) => {asked})")
 
     def axe(self, options: str = "") -> list[Any]:
         """Return what axe finds. (DevTools evaluate it where the page's policy forbids it.)"""

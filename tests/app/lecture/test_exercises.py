@@ -129,6 +129,14 @@ def test_the_renderers_ray_is_right_and_nothing_near_it(exercise):
             assert verdict.field == ("origin", "direction")[where]
 
 
+def test_a_tolerance_is_a_share_of_the_correct_length():
+    exercise = replace(ANY, tolerance=0.1)
+    ray = ANY.camera.ray(*ANY.pixel, ANY.size)
+    for share, right in ((1.099, True), (1.105, False)):
+        assert exercise.check(answer(share * ray.origin, ray.direction)).right == right
+        assert exercise.check(answer(ray.origin, share * ray.direction)).right == right
+
+
 @pytest.mark.parametrize("exercise", [CANONICAL, ANY, PARALLEL])
 def test_every_classic_mistake_is_told_by_its_own_hint(exercise):
     camera, pixel, size = exercise.camera, exercise.pixel, exercise.size

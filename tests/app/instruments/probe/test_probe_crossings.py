@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import pytest
 
 from lucida.app.instruments.probe.crossings import RUN, Index
 from lucida.renderer.scene import shapes
@@ -61,6 +62,14 @@ def test_a_common_edge_is_met_once():
     assert (two.t.tolist(), two.object.tolist()) == ([3, 5], [0, 1])
     same = index(SQUARE, SQUARE).crossings((0.5, 0.25, 3), AHEAD)
     assert (same.t.tolist(), same.primitive.tolist()) == ([3, 3], [0, 2])
+
+
+@pytest.mark.parametrize("faces", [[0, 1, 2], [1, 2, 0], [2, 1, 0]])
+@pytest.mark.parametrize("edge", [(0, -1), (1, 0), (0, 0)])
+def test_an_edge_is_met_from_both_sides(edge, faces):
+    half = index(Mesh(SQUARE.vertices, [faces]))
+    for side in (1, -1):
+        assert half.crossings((*edge, 2 * side), (0, 0, -side)).t.tolist() == [2]
 
 
 def test_a_triangle_seen_edge_on_and_one_without_area_are_not_met():
