@@ -142,7 +142,7 @@ def framed(camera: Camera, points: ArrayLike, everything: ArrayLike = ()) -> Cam
     # seen at the centre. |d (X - mx) + cx (Z - mz)| <= half (ez - Z) gives the least ez.
     aside = np.abs(camera.distance * (local - middle)[:, :2] + center * (local - middle)[:, 2:])
     needed = local[:, 2] + np.maximum(aside / half, least).max(axis=1)
-    z = max(float(needed.max()), float(high[2]) + 0.05 * float(high[2] - low[2]) + least)
+    z = float(max(needed.max(), high[2] + 0.05 * (high[2] - low[2])))
     at = np.append(middle[:2] - center / camera.distance * (z - middle[2]), z)
     return replace(camera, eye=(camera.basis @ at).tolist())
 

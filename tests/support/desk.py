@@ -24,7 +24,6 @@ ROOT = Path(__file__).parents[2]
 PATIENT_S = 400.0  # the first picture of an installation waits for compiled kernels
 STATUS_PX = 50
 REST_S = 2.5  # longer than the window ever waits between two frames
-PAUSE_S = 0.3  # between two keys
 QUIET = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
 
 
@@ -69,11 +68,11 @@ class Desk:
     def key(self, *chords: str) -> None:
         """Presses chords, such as ctrl+plus, at once: faster than fingers, and than frames.
 
-        Each is answered for before the next one's pause begins: of two presses of Ctrl that a busy
-        server takes in the same millisecond, GLFW drops the second.
+        Each is answered for before the next begins: of two presses of Ctrl that a busy server takes
+        in the same millisecond, GLFW drops the second.
         """
         for chord in chords:
-            self.xdotool("key", chord, "getmouselocation", "sleep", PAUSE_S)
+            self.xdotool("key", chord, "getmouselocation")
 
     def chord(self, modifier: str, key: str) -> None:
         """Holds a modifier, presses a key, as a finger does."""
@@ -107,15 +106,16 @@ class Desk:
             assert time.monotonic() < end_s, "the window never rests"
         return last
 
-    def burst(self, do: Callable[[], None]) -> list[float]:
-        """The black parts of all different pictures from before something is done, which changes
-        the screen, until that rests. Menu bar and status line are black in some looks: without."""
-        doing = threading.Thread(target=do)
+    def burst(self, *chords: str) -> list[float]:
+        """The black parts of all different pictures while chords are pressed, each once the screen
+        has changed after the one before, until it rests. Menu bar and status line are black in some
+        looks: without."""
         last, rest = self.picture(), _Rest(self.program)
         parts = [_black(last)]
         end_s = time.monotonic() + PATIENT_S
-        doing.start()
-        while doing.is_alive() or len(parts) == 1 or not rest.is_reached:
+
+        def look() -> None:
+            nonlocal last, rest
             assert time.monotonic() < end_s, f"{len(parts)} different pictures, and no rest"
             now = self.picture()
             if (now != last).any():
@@ -123,6 +123,14 @@ class Desk:
                 parts.append(_black(now))
             else:
                 time.sleep(0.01)  # a frame takes longer, and needs the processor
+
+        for chord in chords:
+            pressing, before = threading.Thread(target=self.key, args=(chord,)), len(parts)
+            pressing.start()
+            while pressing.is_alive() or len(parts) == before:
+                look()
+        while not rest.is_reached:
+            look()
         return parts
 
 
@@ -150,6 +158,7 @@ class _Rest:
 
     def _begin(self) -> None:
         self._since_s, self._worked_s = time.monotonic(), _worked_s(self._process)
+        assert self._worked_s > 0, "the kernel has no schedstat: nobody knows what rests"
 
     @property
     def is_reached(self) -> bool:

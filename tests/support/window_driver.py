@@ -13,7 +13,6 @@ import json
 import os
 import signal
 import sys
-import threading
 import time
 import traceback
 from collections import deque
@@ -122,8 +121,7 @@ class Driver:
         if imgui.is_mouse_down(0):  # a test that failed may hold it
             self.ctx.mouse_up(0)
         self.ctx.mouse_teleport_to_pos((3, SIZE[1] - 3))  # which takes two frames
-        if tuple(imgui.get_io().display_size) != SIZE:
-            self.resize(SIZE)
+        self.resize(SIZE)
         self.rest()
 
     def begin_topic(self) -> None:
@@ -139,10 +137,11 @@ class Driver:
         self.frames(3)
 
     def resize(self, size: tuple[int, int]) -> None:
-        """Resize the window, and wait until it is drawn so."""
-        hello_imgui.change_window_size(size)
-        self.until(lambda: tuple(imgui.get_io().display_size) == size)
-        self.settle()
+        """Resize the window, unless it has that size, and wait until it is drawn so."""
+        if tuple(imgui.get_io().display_size) != size:
+            hello_imgui.change_window_size(size)
+            self.until(lambda: tuple(imgui.get_io().display_size) == size)
+            self.settle()
 
     def layout(self, name: str) -> None:
         """Switch to a layout of the views, unless it is there."""
@@ -326,21 +325,6 @@ def changed(before: np.ndarray, after: np.ndarray) -> float:
     return float((np.abs(before - after).max(axis=2) > 8).mean())
 
 
-def close_at_work(report: Path, folder: Path) -> None:
-    """Closes the window while a tracer prepares, which nothing can cancel."""
-    driver = Driver(folder)
-    driver.window.renderers.live.make_tracer = lambda scene: threading.Event().wait()
-    frames = iter(range(20))
-
-    def count():
-        driver.run.params.app_shall_exit = next(frames, None) is None
-
-    driver.run.params.callbacks.post_new_frame = count
-    driver.run.run()
-    busy = driver.window.renderers.live.busy
-    report.write_text(json.dumps({"close_at_work": "" if busy else "the tracer was not at work"}))
-
-
 def ignore_broken_pipes() -> None:
     """As Python does. The test engine takes the signal for a crash and aborts, or hangs while it
     prints: whenever something is written to a process that has just been ended."""
@@ -396,7 +380,4 @@ def main(report: Path, folder: Path, names: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    if sys.argv[3:] == ["close_at_work"]:
-        close_at_work(Path(sys.argv[1]), Path(sys.argv[2]))
-    else:
-        main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:])
+    main(Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3:])

@@ -50,10 +50,8 @@ def first_day(desk, tmp_path_factory):
     (settings / SEEN).touch()  # the first start's hints
     style = "F9"
     with Program(desk, home) as program:
-        presented = desk.burst(lambda: desk.key(style))[-1]  # its bars around images are black
-        black = desk.burst(
-            lambda: desk.key("ctrl+plus", style, "ctrl+plus", "ctrl+minus", "ctrl+0")
-        )
+        presented = desk.burst(style)[-1]  # its bars around images are black
+        black = desk.burst("ctrl+plus", style, "ctrl+plus", "ctrl+minus", "ctrl+0")
         ended = desk.still()
         desk.key("ctrl+g")
         desk.still()
@@ -67,7 +65,6 @@ def first_day(desk, tmp_path_factory):
 
 def test_six_changes_of_type_size_leave_every_pixel_as_it_was(first_day, tmp_path):
     black = first_day.black
-    assert len(black) > 4
     most = max(black[0], first_day.black_presented)
     assert max(black) < most + 0.2, f"a frame was black: {black}"
     check_same(first_day.begun, first_day.ended, tmp_path)
@@ -78,8 +75,8 @@ def test_what_is_typed_right_after_tab_is_in_the_next_field(first_day):
 
 
 def test_a_lecture_comes_back_and_fresh_is_as_on_the_first_day(desk, first_day, tmp_path):
-    with Program(desk, tmp_path, "lecture", "--step", "3") as program:
-        black = desk.burst(lambda: desk.key("Prior", "Next", "Prior"))
+    with Program(desk, tmp_path, "lecture", "--step", "2") as program:
+        black = desk.burst("Prior", "Next", "Next", "Next")  # of which two move a camera
         assert max(black) < max(black[0], black[-1]) + 0.2, f"a frame was black: {black}"
         desk.click(300, 300)  # marks a pixel, which is a change of the step
         desk.key("ctrl+plus", "F9")  # in a lecture that is a change of style alone

@@ -74,9 +74,28 @@ def _tests_of(number):
 globals().update((f"Test_window_{number}", _tests_of(number)) for number in range(WINDOWS))
 
 
-@drives_take_long
 def test_closing_while_the_tracer_works(tmp_path):
-    assert drive(tmp_path, "close_at_work") == {"close_at_work": ""}
+    """It prepares, which nothing can cancel."""
+    script = """
+import threading
+from lucida.app.window.platform import start_platform
+from lucida.app.state.app_state import AppState
+from lucida.app.window.viewer import WindowRun
+from lucida.renderer.files import load_scene
+
+state = AppState.for_scene(load_scene("still-life"))
+run = WindowRun(start_platform(want_display=False), state, (900, 600), remember=False)
+
+def prepare(scene):
+    run.params.app_shall_exit = True
+    threading.Event().wait()
+
+run.window.renderers.live.make_tracer = prepare
+run.run()
+assert run.window.renderers.live.busy
+"""
+    done = launch(["-c", script], tmp_path)
+    assert done.returncode == 0, done.stderr
 
 
 def check_picture(path, size):
@@ -223,7 +242,6 @@ assert not sizes
 def test_idle_means_idle_and_settings_are_the_users(tmp_path, xvfb):
     """Once all is still, next to no frames are drawn; the layout is kept in the user's folder."""
     script = """
-import sys, threading, time
 from lucida.app.window.platform import start_platform
 from lucida.app.state.app_state import AppState
 from lucida.app.window.viewer import WindowRun
@@ -232,20 +250,16 @@ from lucida.renderer.files import load_scene
 platform = start_platform()
 assert platform.has_display, platform.reason
 run = WindowRun(platform, AppState.for_scene(load_scene("spheres")), (900, 600))
-frames = []
-run.params.callbacks.post_new_frame = lambda: frames.append(time.monotonic())
+idling, waits = run.params.fps_idling, 0
 
-def watch():
-    while not run.window.settled:
-        time.sleep(0.05)
-    drawn = 40
-    while drawn >= 40:  # at last: on a slow machine, the tracer may still be at work
-        before = len(frames)
-        time.sleep(4.0)
-        drawn = len(frames) - before
-    run.params.app_shall_exit = True
+def count():
+    global waits
+    idle = idling.is_idling and idling.fps_idle <= 0.5 and run.window.settled
+    waits = waits + 1 if idle else 0  # in a row, of 2 s each, which nothing has ended
+    if waits == 2:
+        run.params.app_shall_exit = True
 
-threading.Thread(target=watch, daemon=True).start()
+run.params.callbacks.post_new_frame = count
 run.run()
 """
     done = launch(["-c", script], tmp_path, xvfb)  # a window that is never idle is never closed
@@ -257,34 +271,36 @@ run.run()
 @pytest.mark.skipif(sys.platform == "win32", reason="POSIX's signals")
 def test_signals_close_the_window_and_its_layout_is_saved(tmp_path, xvfb):
     script = """
-import os, signal, sys, threading, time
+import os, signal, sys
 from lucida.app.window.platform import start_platform
 from lucida.app.state.app_state import AppState
+from lucida.app.ui import layout
 from lucida.app.window.viewer import WindowRun
 from lucida.renderer.files import load_scene
 
-number = getattr(signal, sys.argv[1])
+number, wanted = getattr(signal, sys.argv[1]), sys.argv[2]
 usual = signal.default_int_handler if number == signal.SIGINT else signal.SIG_DFL
 signal.signal(number, usual)  # whatever this process has inherited
 run = WindowRun(start_platform(), AppState.for_scene(load_scene("spheres")), (900, 600))
+shown = []
 
-def watch():
-    while not run.window.settled:
-        time.sleep(0.05)
-    print(run.window.renderers.size, flush=True)
-    os.kill(os.getpid(), number)
+def follow():
+    if run.window.settled:
+        shown.append(layout.current().name)
+        if shown[-1] == wanted:
+            print(shown[0], flush=True)
+            os.kill(os.getpid(), number)
+        layout.switch(wanted)
 
-threading.Thread(target=watch, daemon=True).start()
+run.params.callbacks.post_new_frame = follow
 run.run()
 """
-    sizes, saved = [], []
-    for name in ("SIGTERM", "SIGINT"):
-        done = launch(["-c", script, name], tmp_path, xvfb)
-        sizes.append(done.stdout)
+    layouts = "Side by side", "Compare"
+    for name, begun, left in (("SIGTERM", *layouts), ("SIGINT", *reversed(layouts))):
+        done = launch(["-c", script, name, left], tmp_path, xvfb)
+        assert done.stdout == f"{begun}\n", done.stderr
         if name == "SIGTERM":
             assert (done.returncode, done.stderr) == (-signal.SIGTERM, "")
         else:
             assert done.stderr.rstrip().endswith("KeyboardInterrupt")  # which the command tells
-        saved.append((tmp_path / "config" / "lucida" / "window.ini").stat().st_mtime_ns)
-    assert saved[0] < saved[1]
-    assert sizes[0] == sizes[1] != ""
+        assert f"Name={left}\n" in (tmp_path / "config" / "lucida" / "window.ini").read_text()

@@ -119,7 +119,7 @@ MOST_MODULES, MOST_FRAMES = 1250, 6  # 1204 and 5 on 2026-11-29
 def test_a_start_takes_few_imports_and_few_frames_to_its_first_picture(tmp_path):
     """Numba and what reads other formats come later: in the tracer's thread, or never."""
     script = """
-import sys
+import sys, threading
 from stepped import stepped
 from lucida.app.window.platform import start_platform
 from lucida.app.window.start import begin_scene
@@ -128,19 +128,25 @@ from lucida.app.window.viewer import WindowRun
 start = begin_scene()
 run = WindowRun(start_platform(want_display=False), start.state, (900, 600), remember=False,
                 start=start)
-frames, modules = 0, []
+frames, modules = 0, set()
+
+def hear(event, arguments):
+    if event == "import" and threading.current_thread() is threading.main_thread():
+        modules.add(arguments[0])
 
 def step():
     global frames
     frames += 1
-    modules[:] = modules or sys.modules
+    modules.update(sys.modules if frames == 1 else ())
 
 def look(target):
+    run.on_drawn = None
+    print(frames, *modules)
     run.params.app_shall_exit = True
 
+sys.addaudithook(hear)
 run.on_drawn = look
 stepped(run, step)
-print(frames, *modules)
 """
     done = launch(["-c", script], tmp_path, fresh=True)
     assert done.returncode == 0, done.stderr
