@@ -86,9 +86,9 @@ def test_a_cloud_bounds_its_frusta_and_visible_points() -> None:
     assert whole.points is poses.points
     assert bare.points is NO_POINTS[0]
     assert len(whole.lines.segments) == 4 * LINES
-    low, high = whole.around.min(axis=0), whole.around.max(axis=0)
-    assert ((whole.lines.segments >= low) & (whole.lines.segments <= high)).all()
-    assert bare.around[:, 1].max() < 2
+    low, high = bare.around.min(axis=0), bare.around.max(axis=0)
+    assert ((bare.lines.segments >= low) & (bare.lines.segments <= high)).all()
+    assert high[1] < 2 < 9 < whole.around[:, 1].max()
 
 
 def test_names_leave_out_the_folder_that_all_are_in() -> None:
