@@ -8,9 +8,8 @@ otherwise tests run on the first that works.
 import functools
 import gc
 import os
-import subprocess
 import sys
-from contextlib import nullcontext
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -25,6 +24,7 @@ from lucida.renderer.trace import Tracer
 from lucida.renderer.trace.precompile import precompile
 from lucida.renderer.trace.tiles.variants import Variant
 from tests.support.browser import chromium
+from tests.support.bytecode import write_bytecode
 from tests.support.launching import SERVED, address_of_server
 from tests.support.needed import absent, x_server
 
@@ -39,9 +39,8 @@ gc.set_threshold(20_000, 10, 10)
 
 def pytest_sessionstart(session):
     """Compile the tracer into the cache: or the first test that traces would wait for it, and hear
-    of it. Before several processes run all tests, all of it, and all tests' modules, unless they
-    have bytecode: or each would compile the same. Not where a few tests run on their own, for
-    another processor."""
+    of it. Before several processes run all tests, all of it, and all modules and tests: or each
+    would compile the same. Not where a few tests run on their own, for another processor."""
     if hasattr(session.config, "workerinput") or session.config.option.collectonly:
         return
     if "NUMBA_CPU_NAME" in os.environ:
@@ -49,12 +48,10 @@ def pytest_sessionstart(session):
     is_whole = session.config.args_source is pytest.Config.ArgsSource.TESTPATHS
     if is_whole and session.config.getoption("numprocesses", None):
         of_variants = [f"{part}-{one}" for part in ("walk", "write") for one in Variant]
-        writing = nullcontext()
-        if not any(Path(__file__).parent.glob("renderer/trace/__pycache__/test_*")):
-            write = [sys.executable, "-m", "tests.support.bytecode"]
-            writing = subprocess.Popen(write, stdout=subprocess.DEVNULL)
-        with writing:
+        with ThreadPoolExecutor() as threads:
+            written = threads.submit(write_bytecode)
             precompile([*of_variants, "trees", "lens", "rays", "shade", "reference"], bool)
+        written.result()
         if sys.platform.startswith("linux"):
             os.environ[SERVED] = address_of_server()
     scene = load_scene(BUILTIN_SCENES[0])

@@ -20,7 +20,7 @@ FINE = 0.1  # shorter scales need more than the usual decimals
 FLT_MAX = 3.4e38
 WIDTH = 8  # characters of a number
 DECIMALS = 4
-HINT = "drag, or double-click to type (1/3, sqrt(2)/2); Shift: faster, Alt: slower"
+HINT = "Drag, or double-click to type (1/3, sqrt(2)/2). Shift: large steps; Alt: small steps."
 
 
 class Scale(NamedTuple):

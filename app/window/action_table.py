@@ -48,7 +48,7 @@ MOUSE = (
     *(row for instrument in INSTRUMENTS for row in instrument.mouse),
     ("Alt+drag", "look around: the eye stays"),
     ("right-click a number", "reset it"),
-    ("drag a number", "change it; Shift: faster, Alt: slower"),
+    ("drag a number", "change it; Shift: large steps; Alt: small steps"),
     ("double-click a number", "type it"),
 )
 

@@ -40,7 +40,7 @@ def licence(distribution: metadata.Distribution) -> str:
 def test_every_dependency_has_an_allowed_licence():
     found: dict[str, metadata.Distribution] = {}
     required("camera-lucida", found, ("film", "notebook"))
-    assert len(found) > 50
+    assert {"numba", "llvmlite", "av", "dask", "anywidget", "traitlets"} <= found.keys()
     for name, distribution in found.items():
         said = licence(distribution)
         assert ALLOWED.search(said), (name, said[:300])

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import time
 
+import psutil
+
 PATIENT_S = 140.0  # below the limit of a test, which would not say where
 
 
@@ -12,3 +14,11 @@ def wait_for(condition) -> None:
     while not condition():
         assert time.monotonic() < end_s, "nothing happened"
         time.sleep(0.01)
+
+
+def is_running(process: int) -> bool:
+    """Return False for a process that has ended, even if its parent has not waited for it yet."""
+    try:
+        return psutil.Process(process).status() != psutil.STATUS_ZOMBIE
+    except psutil.NoSuchProcess:
+        return False

@@ -1,4 +1,4 @@
-"""K, R and t as the camera panel says them: right, legible, pasted back as they are."""
+"""K, R and t in the camera panel: correct, legible, and the same camera when pasted."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ ORIGINS: tuple[PixelOrigin, ...] = get_args(PixelOrigin)
 
 
 def assert_same(one: Camera, other: Camera) -> None:
-    seen, wanted = one.project(POINTS, SIZE), other.project(POINTS, SIZE)
-    assert np.allclose(seen.row, wanted.row, atol=1e-6)
-    assert np.allclose(seen.column, wanted.column, atol=1e-6)
+    pixels, expected = one.project(POINTS, SIZE), other.project(POINTS, SIZE)
+    assert np.allclose(pixels.row, expected.row, atol=1e-6)
+    assert np.allclose(pixels.column, expected.column, atol=1e-6)
 
 
 @pytest.mark.parametrize("origin", ORIGINS)
-def test_what_is_copied_is_pasted_by_its_own_pixel_origin(origin: PixelOrigin) -> None:
+def test_a_copied_camera_is_the_same_when_pasted(origin: PixelOrigin) -> None:
     words = other_words(View(AIMED), SIZE, origin)
     assert_same(read_view(words.copied, NOW).for_size(SIZE), AIMED)
     names: dict[str, object] = {}
@@ -38,7 +38,7 @@ def test_what_is_copied_is_pasted_by_its_own_pixel_origin(origin: PixelOrigin) -
     assert np.array_equal(np.array(names["t"]), t)
 
 
-def test_what_is_read_has_columns_and_no_rests_of_rounding() -> None:
+def test_the_shown_matrices_are_aligned_and_rounded() -> None:
     lines = other_words(View(Camera((0, 0, 5))), (100, 100), "corner").read
     assert lines == (
         "K  100    0  50",
@@ -53,8 +53,8 @@ def test_what_is_read_has_columns_and_no_rests_of_rounding() -> None:
     )
 
 
-def test_k_stands_as_it_was_pasted_and_beside_it_what_this_image_has() -> None:
-    """fx = 700 of an image of 640 x 480 is another number in the window's image."""
+def test_a_pasted_k_is_shown_with_that_of_the_current_image() -> None:
+    """The height of the current image decides: 90 pixels instead of 480."""
     text = "K = [[700.125, 0, 300], [0, 690, 250], [0, 0, 1]]\nw = 640\nh = 480\nt = [0, 0, 6]"
     view = read_view(text, NOW)
     words = other_words(view, SIZE, "center")
@@ -64,21 +64,20 @@ def test_k_stands_as_it_was_pasted_and_beside_it_what_this_image_has() -> None:
         "         0  690  250",
         "         0    0    1",
     )
-    K = view.for_size(SIZE).intrinsics(SIZE, "center").K
     assert words.read[4] == f"in this image, {SIZE[0]} x {SIZE[1]}"
-    assert float(words.read[5].split()[1]) == pytest.approx(K[0, 0], rel=1e-4) != 700.125
+    assert float(words.read[5].split()[1]) == pytest.approx(700.125 * 90 / 480, rel=1e-4)
     names: dict[str, object] = {}
     exec(words.copied, names)
     assert np.allclose(np.array(names["K"]), [[700.125, 0, 300], [0, 690, 250], [0, 0, 1]])
     assert (names["width"], names["height"]) == (640, 480)
     assert_same(read_view(words.copied, NOW).for_size(SIZE), view.for_size(SIZE))
-    # Another camera is not the one that was pasted; in an image of that size there is one K.
+    # A changed camera was not pasted; an image of the given size has only one K.
     moved = replace(view, camera=replace(view.camera, distance=9.0))
     assert other_words(moved, SIZE, "center").read[0].startswith("K")
     assert other_words(view, (640, 480), "center").read[0].startswith("K")
 
 
-def test_a_parallel_camera_has_none() -> None:
+def test_a_parallel_camera_has_no_k() -> None:
     with pytest.raises(LucidaError, match="no focal length"):
         other_words(View(Camera(projection="parallel")), SIZE, "center")
 

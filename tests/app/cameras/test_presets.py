@@ -1,4 +1,4 @@
-"""The classic cameras, against their definitions; and the framing of things."""
+"""The presets against their definitions, and the framing of points."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def preset_view(name: str, points: np.ndarray = CUBE) -> View:
     return make_view(PRESET[name], view, points, points, 16 / 9)
 
 
-def seen(camera: Camera, world: tuple[float, float, float]) -> np.ndarray:
-    """A direction in the image, (right, up), in units of the world, for parallel rays."""
+def projected(camera: Camera, world: tuple[float, float, float]) -> np.ndarray:
+    """Return a direction's parallel projection, (right, up), in units of the world."""
     matrix = camera.camera_from_world
     x, y = matrix[:2, :3] @ np.asarray(world, float)
     return x * np.linalg.norm(camera.u), y * np.linalg.norm(camera.v)
@@ -57,7 +57,7 @@ def test_a_side_looks_at_the_scene_from_outside(name, right, up, toward) -> None
 
 def test_isometric_foreshortens_all_three_axes_alike_at_120_degrees() -> None:
     camera = preset_view("Isometric").camera
-    axes = [np.array(seen(camera, axis)) for axis in np.eye(3)]
+    axes = [np.array(projected(camera, axis)) for axis in np.eye(3)]
     for axis in axes:
         assert np.linalg.norm(axis) == pytest.approx(math.sqrt(2 / 3))
     for first, second in ((0, 1), (1, 2), (2, 0)):
@@ -68,7 +68,7 @@ def test_isometric_foreshortens_all_three_axes_alike_at_120_degrees() -> None:
 
 def test_dimetric_is_that_of_iso_5456() -> None:
     camera = preset_view("Dimetric").camera
-    x, y, z = (np.array(seen(camera, axis)) for axis in np.eye(3))
+    x, y, z = (np.array(projected(camera, axis)) for axis in np.eye(3))
     assert np.linalg.norm(x) == pytest.approx(np.linalg.norm(y))
     assert np.linalg.norm(z) == pytest.approx(np.linalg.norm(y) / 2)
     assert math.degrees(math.atan2(-x[1], x[0])) == pytest.approx(7, abs=0.3)
@@ -77,15 +77,15 @@ def test_dimetric_is_that_of_iso_5456() -> None:
 
 
 @pytest.mark.parametrize(("name", "factor"), [("Cavalier", 1.0), ("Cabinet", 0.5)])
-def test_the_oblique_views_of_the_unit_cube(name: str, factor: float) -> None:
-    """Its front face is a unit square; its receding edges go off at 45 degrees."""
+def test_oblique_edges_recede_at_45_degrees(name: str, factor: float) -> None:
+    """The front face of the unit cube stays a unit square."""
     camera = preset_view(name).camera
-    assert seen(camera, (1, 0, 0)) == pytest.approx((1, 0))
-    assert seen(camera, (0, 1, 0)) == pytest.approx((0, 1))
-    away = np.array(seen(camera, (0, 0, -1)))
+    assert projected(camera, (1, 0, 0)) == pytest.approx((1, 0))
+    assert projected(camera, (0, 1, 0)) == pytest.approx((0, 1))
+    away = np.array(projected(camera, (0, 0, -1)))
     assert np.linalg.norm(away) == pytest.approx(factor)
     assert math.degrees(math.atan2(away[1], away[0])) == pytest.approx(45)
-    # The rays' angle with the picture's plane: 45 degrees, or arctan 2.
+    # The rays' angle with the image plane: 45 degrees, or arctan 2.
     sine = abs(camera.w[2]) / np.linalg.norm(camera.w)
     assert math.tan(math.asin(sine)) == pytest.approx(1 / factor)
     corners = camera.project(CUBE, SIZE)
@@ -123,7 +123,7 @@ def test_presets_are_legal_named_once_and_orthonormal_but_for_the_oblique() -> N
 
 
 @given(cameras(0.05), st.lists(vectors, min_size=1, max_size=12))
-def test_what_is_framed_is_in_the_picture(camera: Camera, points: list) -> None:
+def test_framed_points_are_in_the_picture(camera: Camera, points: list) -> None:
     after = framed(camera, points)
     assert (after.u, after.v, after.w, after.distance) == (
         camera.u,
@@ -153,26 +153,25 @@ def test_nothing_to_frame_leaves_the_camera() -> None:
     assert framed(Camera(eye=(1, 2, 3)), np.zeros((0, 3))) == Camera(eye=(1, 2, 3))
 
 
-class TestLookAt:
-    def test_it_aims_and_leaves_the_rest(self) -> None:
-        view = View(Camera(distance=2.0, viewport=(-1, 1, 0, 1), near=0.5), fit=True)
-        after = look_at(view, (3, 4, 5), (0, 1, 0), (0, 2, 0))
-        camera = after.camera
-        assert after.fit
-        assert (camera.distance, camera.viewport, camera.near) == (2.0, (-1, 1, 0, 1), 0.5)
-        assert camera.eye == (3, 4, 5)
-        assert np.cross(np.subtract((3, 4, 5), (0, 1, 0)), camera.w) == pytest.approx(np.zeros(3))
+def test_look_at_aims_and_leaves_the_rest() -> None:
+    view = View(Camera(distance=2.0, viewport=(-1, 1, 0, 1), near=0.5), fit=True)
+    after = look_at(view, (3, 4, 5), (0, 1, 0), (0, 2, 0))
+    camera = after.camera
+    assert after.fit
+    assert (camera.distance, camera.viewport, camera.near) == (2.0, (-1, 1, 0, 1), 0.5)
+    assert camera.eye == (3, 4, 5)
+    assert np.multiply(camera.w, 43**0.5) == pytest.approx((3, 3, 5))  # away from the target
+    assert np.multiply(camera.u, 34**0.5) == pytest.approx((5, 0, -3))  # up x w
 
 
-class TestClipAround:
-    def test_it_cuts_nothing_off(self) -> None:
-        camera = Camera(eye=(0.5, 0.5, 4))
-        near, far = clip_around(camera, CUBE)
-        assert 2.9 < near < 3
-        assert 4 < far < 4.1
+def test_clip_planes_clip_nothing() -> None:
+    near, far = clip_around(Camera(eye=(0.5, 0.5, 4)), CUBE)
+    assert 2.9 < near < 3
+    assert 4 < far < 4.1
 
-    def test_near_is_a_thousandth_of_far_where_things_begin_before_it(self) -> None:
-        camera = Camera()
-        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0009)]) == (1.01 / 1000, 1.01)
-        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0011)]) == (0.00108, 1.01)
-        assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0010197)]) == (1.01 / 1000, 1.01)
+
+def test_near_is_at_least_a_thousandth_of_far() -> None:
+    camera = Camera()
+    assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0009)]) == (1.01 / 1000, 1.01)
+    assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0011)]) == (0.00108, 1.01)
+    assert clip_around(camera, [(0, 0, -1), (0, 0, -0.0010197)]) == (1.01 / 1000, 1.01)

@@ -1,4 +1,4 @@
-"""The camera under way in the window: where it is when, and what ends its passage."""
+"""A camera's transition in the window: its path in time, and what ends it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from lucida.renderer.scene.model import Scene
 
 
 class Clock:
-    """A clock that goes on when it is told to."""
+    """A clock that the test advances."""
 
     def __init__(self) -> None:
         self.s = 100.0
@@ -33,7 +33,7 @@ def target_of(state: AppState, name: str) -> AppState:
     return replace(state.with_view(view), keep_orthonormal=is_orthonormal(view.camera))
 
 
-class TestTraveller:
+class TestTransition:
     def begin(self, scene: Scene, name: str = "Front") -> tuple[Clock, CameraTransition, AppState]:
         clock, state = Clock(), AppState.for_scene(scene)
         transition = CameraTransition(clock)
@@ -42,7 +42,7 @@ class TestTraveller:
         assert shown is state
         return clock, transition, target
 
-    def test_it_arrives_after_its_time_whatever_the_frame_rate(self, scene: Scene) -> None:
+    def test_it_takes_its_duration_at_any_frame_rate(self, scene: Scene) -> None:
         for frames in (1, 7, 300):
             clock, transition, target = self.begin(scene, "Cabinet")
             state = AppState.for_scene(scene)
@@ -57,7 +57,7 @@ class TestTraveller:
             assert not transition.under_way
             assert frames == 1 or middle not in (target, AppState.for_scene(scene))
 
-    def test_another_change_of_the_view_ends_it_there(self, scene: Scene) -> None:
+    def test_another_change_of_the_view_ends_it(self, scene: Scene) -> None:
         clock, transition, _ = self.begin(scene)
         clock.s += 0.1
         state = transition.step(AppState.for_scene(scene))
@@ -66,7 +66,7 @@ class TestTraveller:
         assert transition.step(moved) is moved
         assert not transition.under_way
 
-    def test_on_the_way_a_switch_that_is_off_stays_off(self, scene: Scene) -> None:
+    def test_keep_orthonormal_stays_off_until_the_end(self, scene: Scene) -> None:
         clock, transition, target = self.begin(scene)
         state = AppState.for_scene(scene).with_keep_orthonormal(False)
         clock.s += 0.4 * DURATION_S
@@ -75,7 +75,7 @@ class TestTraveller:
         clock.s += DURATION_S
         assert transition.step(between).keep_orthonormal == target.keep_orthonormal
 
-    def test_setting_out_again_ends_the_passage_before(self, scene: Scene) -> None:
+    def test_a_new_transition_replaces_the_previous_one(self, scene: Scene) -> None:
         clock, transition, _ = self.begin(scene)
         assert transition.under_way is True
         first = transition.gesture
@@ -89,7 +89,7 @@ class TestTraveller:
         assert transition.begin(state, there, scene_focus(scene), SIZE) is there
         assert transition.under_way is False
 
-    def test_all_of_it_is_one_step_of_undo(self, scene: Scene) -> None:
+    def test_a_transition_is_one_undo_step(self, scene: Scene) -> None:
         clock, transition, target = self.begin(scene)
         history = History(AppState.for_scene(scene))
         for _ in range(10):
@@ -99,7 +99,7 @@ class TestTraveller:
         assert history.present == target
         assert len(history.past) == 1
 
-    def test_the_outside_views_camera_passes_too_and_only_that(self, scene: Scene) -> None:
+    def test_the_outside_camera_moves_without_an_undo_step(self, scene: Scene) -> None:
         clock, state = Clock(), AppState.for_scene(scene)
         start = Camera.look_at((9.0, 3.0, 9.0), (0.0, 0.0, 0.0))
         end = Camera.look_at((0.0, 12.0, 1.0), (0.0, 0.0, 0.0))
@@ -125,26 +125,26 @@ class TestTraveller:
             assert history.present == with_options(state, outside={"camera": there})
             assert history.past == ()  # undo is for the scene's camera
             assert not transition.under_way
-            # Another camera for it ends the passage; another view does not.
+            # Another outside camera ends the transition; another view does not.
             transition.begin(state, target, scene_focus(scene), SIZE, ends)
             clock.s += 0.1
             found = transition.step(target_of(state, "Front"))
-            assert found.view == target_of(state, "Front").view
+            assert transition.under_way and found.view == target_of(state, "Front").view
             moved = with_options(found, outside={"camera": end})
             assert transition.step(moved) is moved
             assert not transition.under_way
 
-    @pytest.mark.parametrize("how", ["instant", "reduced", "mirrored", "scene", "no window"])
-    def test_where_nothing_is_to_be_seen_it_is_there_at_once(self, scene: Scene, how: str) -> None:
+    @pytest.mark.parametrize("reason", ["instant", "reduced", "mirrored", "scene", "no window"])
+    def test_an_invisible_transition_ends_at_once(self, scene: Scene, reason: str) -> None:
         state, transition, size = AppState.for_scene(scene), CameraTransition(Clock()), SIZE
         target = target_of(state, "Left")
-        if how == "instant":
+        if reason == "instant":
             transition.instant = True
-        elif how == "reduced":
+        elif reason == "reduced":
             state = with_options(state, preferences={"reduced_motion": True})
-        elif how == "mirrored":
+        elif reason == "mirrored":
             target = target.with_camera(replace(target.camera, u=(0.0, 0.0, -1.0)))
-        elif how == "scene":
+        elif reason == "scene":
             target = target.with_scene(load_scene("canonical"))
         else:
             size = (0, 0)

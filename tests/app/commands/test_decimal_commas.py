@@ -40,10 +40,9 @@ def german(tmp_path):
     program, source = shutil.which("localedef"), Path("/usr/share/i18n/locales/de_DE")
     if program is None or not source.exists():
         absent("no localedef, or not its source of German")
-    text = re.sub(
-        r"(?s)\nLC_COLLATE\n.*?\nEND", '\nLC_COLLATE\ncopy "POSIX"\nEND', source.read_text()
-    )
-    (tmp_path / "german").write_text(text)  # the order of letters takes long, and is not used here
+    order = r"(?s)\nLC_COLLATE\n.*?\nEND"  # of letters takes long, and is not used here
+    text = re.sub(order, '\nLC_COLLATE\ncopy "POSIX"\nEND', source.read_text("utf-8"))
+    (tmp_path / "german").write_text(text, "utf-8")
     command = [program, "-i", tmp_path / "german", "-f", "UTF-8", made]
     subprocess.run(command, check=True, capture_output=True)
     return {**os.environ, "LOCPATH": str(made.parent), "LC_ALL": GERMAN}

@@ -2,7 +2,6 @@
 
 import json
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -64,18 +63,33 @@ def scene():
 
 
 @pytest.fixture(scope="module")
-def page(browser, scene, tmp_path_factory):
-    """A page for all tests, of few pixels: Chromium draws them on the processor."""
+def shared(browser, scene, tmp_path_factory):
+    """A page for all tests, of few pixels: Chromium draws them on the processor.
+
+    It sends no request, and reports nothing.
+    """
     file = tmp_path_factory.mktemp("pages") / "painted.html"
     file.write_text(scene_page(scene, scene.view), encoding="utf-8")
     opened = Page(browser, file, viewport={"width": 880, "height": 500}, device_scale_factor=0.25)
     opened.tab.evaluate("lucida.ready")
-    return opened
+    yield opened
+    opened.tab.close()
+    assert opened.problems == []
 
 
 @pytest.fixture
-def tab(page, scene):
-    page.tab.evaluate("camera => lucida.set(camera)", view_table(scene.view))
+def page(shared, scene):
+    """The page with its first camera and settings, drawn."""
+    for label in ("shadows", "reflections"):
+        shared.tab.get_by_label(label).uncheck()
+    shared.tab.get_by_role("radio", name="Side by side").check()
+    shared.tab.evaluate("camera => lucida.set(camera)", view_table(scene.view))
+    shared.drawn()
+    return shared
+
+
+@pytest.fixture
+def tab(page):
     return page.tab
 
 
@@ -103,8 +117,6 @@ def test_shadows_and_reflections_are_the_tracer_s(page, tab, scene):
         frame = tracer.render(scene.view.for_size(SIZE), SIZE, ("color", "primitive"))
     image = page.image("ray", SIZE)
     assert unexplained(image, picture(frame), frame.channel("primitive")).sum() <= 3
-    for label in ("shadows", "reflections"):
-        tab.get_by_label(label).uncheck()
 
 
 def test_camera_as_text_and_in_the_address(tab, page):
@@ -147,25 +159,23 @@ def test_the_probe_says_what_a_pixel_sees(page, tab, scene):
     image = tab.get_by_role("img", name="Ray image")
     image.click(position={"x": 200, "y": 150})
     tab.get_by_role("button", name="Next column").click()
-    page.until("document.querySelector('.lucida-probe').textContent.includes('at t =')")
+    page.drawn()
     words = tab.locator(".lucida-pixel").text_content()
     row, column, width, height, _ = map(int, re.findall(r"\d+", words))
     with Tracer(scene) as tracer:
         size = width, height
         frame = tracer.render(scene.view.for_size(size), size, ("depth",))
     depth = float(frame.channel("depth")[row, column])
-    shown = "parseFloat(document.querySelector('.lucida-probe dl').textContent.split('at t = ')[1])"
-    page.until(f"Math.abs({shown} / {depth} - 1) < 1e-3")  # drawn after the words
+    shown = re.search(r"at t = ([\d.]+)", tab.locator(".lucida-probe dl").text_content())[1]
+    assert float(shown) == pytest.approx(depth, rel=1e-3)
 
 
 @pytest.mark.parametrize("lens", LENSES[::3], ids=lambda lens: lens.model)
 def test_the_probe_shows_the_way_through_a_lens(page, tab, lens):
-    tab.evaluate("document.querySelector('.lucida-lines')?.replaceChildren()")  # another lens's
     tab.evaluate("lens => lucida.set({lens})", {"model": lens.model, **lens.coefficients})
-    named = "[...document.querySelectorAll('.lucida-lines dt')].map(dt => dt.textContent)"
-    page.until(f"{named}.includes('direction in the camera, forwards')")
-    lines = "[...document.querySelectorAll('.lucida-lines dd')].map(dd => dd.innerHTML)"
-    names, lines = tab.evaluate(f"[{named}, {lines}]")  # at once: the page may draw in between
+    page.drawn()
+    names = tab.locator(".lucida-lines dt").all_text_contents()
+    lines = tab.locator(".lucida-lines dd").evaluate_all("all => all.map((one) => one.innerHTML)")
     shown = dict(zip(names, lines, strict=True))
 
     def last(name):
@@ -182,43 +192,46 @@ def test_the_probe_shows_the_way_through_a_lens(page, tab, lens):
     assert shown["direction in the camera, forwards"].startswith("<math")
 
 
-def test_the_viewport_is_that_of_the_image(page, tab, scene):
-    tab.evaluate("camera => lucida.set(camera)", view_table(replace(scene.view, fit=True)))
+def test_the_viewport_is_that_of_the_image(tab, scene):
     size = tab.evaluate(
         "(canvas => [canvas.width, canvas.height])(document.querySelector('canvas'))"
     )
     left, right, bottom, top = scene.view.for_size(size).viewport
     field = tab.get_by_label("Viewport, right, number")
-    page.until("document.querySelector('[aria-label=\"Viewport, right, number\"]').value !== ''")
     assert float(field.input_value()) == pytest.approx(right, rel=1e-3)
     field.fill("0.9")
     tab.keyboard.press("Tab")
     assert tab.evaluate("lucida.camera.viewport") == pytest.approx([left, 0.9, bottom, top])
 
 
-def test_the_difference_is_counted(page, tab):
+# Let a camera that sees one point be followed by another while the workers compare its images.
+FOLLOWED = """() => { const { postMessage } = Worker.prototype;
+  lucida.set({ distance: 1e4 });
+  Worker.prototype.postMessage = function (message) {
+    postMessage.call(this, message);
+    if (message.isWhole && lucida.camera.distance === 1e4) lucida.set({ distance: 2 });
+  };
+  const result = document.querySelector(".lucida-result");
+  window.said = [];
+  new MutationObserver(() => said.push(result.textContent)).observe(result, { childList: true });
+}"""
+
+
+def test_the_difference_is_counted_for_the_last_camera(page, tab):
+    tab.evaluate(FOLLOWED)
     tab.get_by_role("radio", name="Difference").check()
-    for distance in (1.0, 1.5, 2.0):  # while it compares: the last camera counts
-        tab.evaluate("distance => lucida.set({ distance })", distance)
-        tab.wait_for_timeout(310)
-    page.until("/differ by/.test(document.querySelector('.lucida-result').textContent)")
-    words = tab.locator(".lucida-result").text_content()
+    first = "said.find((text) => text.includes('differ by'))"
+    page.until(first)
+    words = tab.evaluate(first)
     unlike, count = map(int, re.findall(r"\d+", words)[:2])
-    assert unlike < 0.01 * count
+    assert 0 < unlike < 0.01 * count
     shown = tab.locator("figure:not([hidden]) canvas[aria-label^='Difference']")
     size = tuple(int(shown.get_attribute(side)) for side in ("width", "height"))
     ray, raster = (page.image(kind, size).astype(int) for kind in ("ray", "raster"))
     assert unlike == (np.abs(ray - raster) > 1).any(axis=2).sum()
-    tab.get_by_role("radio", name="Side by side").check()
-
-
-# Two frames later, and after the workers' answer to the probe.
-DRAWN = """new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))
-  .then(() => lucida.pixels("ray", [8, 8])).then(() => null)"""
 
 
 def test_a_lost_webgl_context_is_reported_and_comes_back_with_the_last_camera(page, tab):
-    tab.evaluate(DRAWN)
     tab.evaluate(
         """window.drawn = [...document.querySelectorAll(".lucida-image canvas")]
           .filter((canvas) => canvas.checkVisibility() && canvas.getContext("webgl2"));
@@ -228,20 +241,22 @@ def test_a_lost_webgl_context_is_reported_and_comes_back_with_the_last_camera(pa
     assert tab.evaluate("losing.length") == 2  # the raster image and the outside view
     tab.evaluate("lucida.set({distance: 1.5})")
     image = page.image("raster", SIZE)
-    tab.evaluate(DRAWN)
+    page.drawn()
     right = _screenshots(tab)
     tab.evaluate("lucida.set({distance: 1})")
-    tab.evaluate(DRAWN)
+    page.drawn()
     reports = (
         "[...document.querySelectorAll('figure p')].filter((p) => /is lost/.test(p.innerText))"
     )
     tab.evaluate("losing.forEach((context) => context.loseContext())")
-    page.until(f"{reports}.length === 2")
-    refused = "lucida.pixels('raster', [8, 8]).catch((error) => error.message)"
-    assert "is lost" in tab.evaluate(refused)
-    tab.evaluate("lucida.set({distance: 1.5})")
-    tab.evaluate(DRAWN)
-    tab.evaluate("losing.forEach((context) => context.restoreContext())")
+    try:
+        page.until(f"{reports}.length === 2")
+        refused = "lucida.pixels('raster', [8, 8]).catch((error) => error.message)"
+        assert "is lost" in tab.evaluate(refused)
+        tab.evaluate("lucida.set({distance: 1.5})")
+        page.drawn()
+    finally:
+        tab.evaluate("losing.forEach((context) => context.restoreContext())")
     page.until(f"{reports}.length === 0")
     assert _screenshots(tab) == right
     np.testing.assert_array_equal(page.image("raster", SIZE), image)
@@ -321,7 +336,3 @@ def test_the_command_writes_a_small_page(tmp_path, monkeypatch, capsys):
     assert json.dumps([0.0, 2.0, 9.0], separators=(",", ":")) in Path("a.html").read_text()
     assert main(["page", "still-life", "-o", "a.png"]) == 2
     assert "give .html" in capsys.readouterr().err
-
-
-def test_no_request_left_and_nothing_was_said(page):
-    assert page.problems == []

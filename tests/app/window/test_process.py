@@ -7,10 +7,9 @@ import sys
 from pathlib import Path
 
 import pytest
-from waiting import wait_for
+from waiting import PATIENT_S, is_running, wait_for
 
 ROOT = Path(__file__).parents[3]
-PATIENT_S = 140  # only a hang takes this long
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="POSIX's streams and signals")
 
 
@@ -27,7 +26,6 @@ def run(*arguments, closed=(), **options):
         env={**os.environ, "PYTHONPATH": path},
         preexec_fn=close,
         text=True,
-        timeout=PATIENT_S,
         check=False,
         **options,
     )
@@ -134,13 +132,3 @@ def test_a_child_that_still_imports_ends_with_a_parent_that_lost_its_terminal(tm
     finally:
         parent.kill()
         parent.wait()
-
-
-def is_running(pid):
-    """Return True if a process is at work, not a zombie that waits for its parent."""
-    try:
-        os.kill(pid, 0)
-        state = Path(f"/proc/{pid}/stat")
-        return not state.exists() or state.read_text().rpartition(")")[2].split()[0] != "Z"
-    except (ProcessLookupError, FileNotFoundError):
-        return False

@@ -106,6 +106,15 @@ def test_a_lens_ends_where_its_map_folds(lens, seen, unseen):
     assert np.isnan(lens.image_point(*unseen)).all()
 
 
+@pytest.mark.parametrize("model", ["fov", "equisolid", "orthographic", "equirectangular"])
+def test_the_images_axes_end_where_directions_do(model):
+    lens = Lens(model, {"omega": 0.9} if model == "fov" else {})
+    for axis in np.eye(2):
+        for end in lens.ends(int(axis[1])):
+            assert np.isfinite(lens.direction(*(0.999 * end * axis))).all()
+            assert np.isnan(lens.direction(*(1.001 * end * axis))).all()
+
+
 def test_points_outside_of_a_lens_have_no_direction():
     fold = 2 / 3 * math.sqrt(1 / 0.3)  # r (1 - r^2 / 10) at most
     lens, bent = Lens("brown", {"k1": -0.1}), Lens("brown", {"k1": -0.1, "p1": 1e-3})

@@ -93,7 +93,6 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
     assert status == 0 and "4 of 5 frames are there" in out
 
 
-@pytest.mark.timeout(180)
 def test_workers_draw_the_same_even_if_one_is_killed(tmp_path):
     scene = load_scene("spheres")
     focus = scene_focus(scene)

@@ -1,4 +1,4 @@
-"""A cloud's pixels: where its points and lines are, what hides them."""
+"""A cloud's pixels: the places of its points and lines, and their hidden parts."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ NO_LINES = np.zeros((0, 2, 3))
 def a_cloud(
     points: Any = (), lines: NDArray[np.float64] = NO_LINES, color: Any = RED, reach: float = 2.0
 ) -> Cloud:
-    """Far from the origin its float32 would be coarse: it counts from a place of its own."""
+    """Return a cloud whose float32 positions count from an origin of its own."""
     places = np.asarray(points, float).reshape(-1, 3)
     origin = np.array([0.25, -0.5, 0.125])
     colors = np.broadcast_to(np.array(color, np.uint8), (len(places), 3))
@@ -50,7 +50,7 @@ def a_cloud(
 def drawn(
     rasterizer: Rasterizer, cloud: Cloud, camera: Camera, scene: Scene = EMPTY
 ) -> NDArray[np.int64]:
-    """The view's pixels, (height, width, 3)."""
+    """Return the view's pixels, (height, width, 3)."""
     rasterizer.set_scene(scene)
     screen = OutsideScreen(camera, SIZE, 1e-3)
     with rasterizer.current() as gl:
@@ -94,7 +94,7 @@ def test_lines_are_where_the_camera_projects_them(rasterizer: Rasterizer, camera
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
-def test_of_two_points_the_nearer_is_seen(rasterizer: Rasterizer, camera: Camera) -> None:
+def test_the_nearer_of_two_points_is_drawn(rasterizer: Rasterizer, camera: Camera) -> None:
     toward = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye)
     near, far = 0.2 * toward, np.zeros(3)
     for order in ((near, far), (far, near)):
@@ -103,7 +103,7 @@ def test_of_two_points_the_nearer_is_seen(rasterizer: Rasterizer, camera: Camera
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
-def test_the_scene_makes_what_is_behind_it_pale(rasterizer: Rasterizer, camera: Camera) -> None:
+def test_points_behind_the_scene_are_pale(rasterizer: Rasterizer, camera: Camera) -> None:
     toward = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye)
     toward = toward / np.linalg.norm(toward)
     for place, light in ((1.2 * toward, 1.0), (-1.2 * toward, CLOUD_HIDDEN)):
@@ -113,9 +113,7 @@ def test_the_scene_makes_what_is_behind_it_pale(rasterizer: Rasterizer, camera: 
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_what_reaches_behind_the_eye_that_looks_is_cut_there(
-    rasterizer: Rasterizer, projection: str
-) -> None:
+def test_a_cloud_is_clipped_at_the_outside_camera(rasterizer: Rasterizer, projection: str) -> None:
     camera = Camera(viewport=(-0.5, 0.5, -0.375, 0.375), projection=projection)
     line = np.array([[(0.0, -0.2, -1.5), (0.0, -0.2, 2.0)]])
     points = [(0.1, 0.1, -1.0), (0.1, 0.1, 1.0)]

@@ -12,7 +12,7 @@ from lucida.app.instruments.outside.second_camera import ROLE, GivenRay
 CORRECT = GivenRay(np.array([1.0, 0.0, 3.0]), np.array([0.2, 0.1, -1.0]))
 
 
-def test_what_was_given_is_dashed_named_and_of_another_colour() -> None:
+def test_a_students_answer_is_dashed_and_named_in_its_own_colour() -> None:
     given_ray = GivenRay(np.zeros(3), np.array([0.2, -0.1, -2.0]))
     for items in (
         answers.ray(given_ray, CORRECT, 6.0),
@@ -28,7 +28,7 @@ def test_what_was_given_is_dashed_named_and_of_another_colour() -> None:
 
 
 def test_the_correct_ray_points_forwards_and_has_the_given_length() -> None:
-    [ray] = (one for one in answers.ray(CORRECT, CORRECT, 6.0) if one.name == "correct ray")
+    [ray] = (item for item in answers.ray(CORRECT, CORRECT, 6.0) if item.name == "correct ray")
     assert isinstance(ray, Segments)
     forwards = CORRECT.direction / np.linalg.norm(CORRECT.direction)
     ends = [CORRECT.origin, CORRECT.origin + 6.0 * forwards]
@@ -36,15 +36,13 @@ def test_the_correct_ray_points_forwards_and_has_the_given_length() -> None:
 
 
 def test_arrows_lead_from_the_point_along_both_vectors() -> None:
-    given, correct, at = np.array([0, 1, 0.0]), np.array([1, 0, 0.0]), np.array([1, 2, 3.0])
-    items = answers.vector("w", "w", at, given, correct)
-    for arrow in (item for item in items if isinstance(item, Arrow)):
-        way = given if arrow.role == ROLE else correct
-        np.testing.assert_allclose((arrow.start, arrow.end), (at, at + way))
+    items = answers.vector("w", "w", (1, 2, 3), np.array([0, 1, 0.0]), np.array([1, 0, 0.0]))
+    ends = [(item.start, item.end) for item in items if isinstance(item, Arrow)]
+    np.testing.assert_allclose(ends, [[(1, 2, 3), (2, 2, 3)], [(1, 2, 3), (1, 3, 3)]])
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 1e300])
-def test_what_cannot_be_drawn_leaves_the_correct_one(bad) -> None:
+def test_an_answer_that_cannot_be_drawn_leaves_the_correct_one(bad) -> None:
     wrong = np.full(3, bad)
     for items in (
         answers.ray(GivenRay(wrong, wrong), CORRECT, 6.0),

@@ -41,12 +41,8 @@ EMPTY = np.full(SIZE[::-1], np.inf, np.float32)
 SPACE = "{http://www.w3.org/2000/svg}"
 CAMERA = Camera(eye=(0.3, -0.2, 2.0), viewport=(-0.8, 0.9, -0.4, 0.6), w=(0.1, 0.0, 1.0))
 LOOKING = Camera.look_at((4.0, 2.5, 6.0), (0.3, 0.0, 0.0), fov_y_deg=40.0, aspect=4 / 3)
-PARALLEL = Camera(
-    LOOKING.eye, LOOKING.u, LOOKING.v, LOOKING.w, 1.0, (-4.0, 4.0, -3.0, 3.0), "parallel"
-)
-SKEWED = Camera(
-    LOOKING.eye, LOOKING.u, (0.2, 1.1, 0.3), LOOKING.w, LOOKING.distance, LOOKING.viewport
-)
+PARALLEL = replace(LOOKING, viewport=(-4.0, 4.0, -3.0, 3.0), projection="parallel")
+SKEWED = replace(LOOKING, v=(0.2, 1.1, 0.3))
 STRAIGHT = Camera.look_at((0, 0, 6), (0, 0, 0), fov_y_deg=40.0, aspect=4 / 3)
 SCENE = Scene(
     (
@@ -59,7 +55,7 @@ SCENE = Scene(
 def drawn(
     items: list[Item], looking: Camera = LOOKING, t: NDArray[np.float32] = EMPTY, **more: Any
 ) -> Figure:
-    """more: of the figure."""
+    """Return a figure of the items. more: its other fields."""
     plane = more.pop("plane", None)
     screen = OutsideScreen(looking, SIZE, 1e-3)
     parts = figure_parts(project(items, screen), lambda *_: (1.0, 0.5, 0.0), screen, t, plane)
@@ -198,7 +194,7 @@ def test_odd_names_cannot_break_the_file() -> None:
     assert 'ab <&> "c"' in [text.text for text in parsed(drawn([label])).iter(f"{SPACE}text")]
 
 
-def test_dashes_have_the_lines_length_in_turn() -> None:
+def test_dashes_are_equally_long_and_turn_corners() -> None:
     line = np.array([[0, 0], [12, 0], [12, 15]], float)
     found = dashes(line, 1.0)
     lengths = [np.linalg.norm(np.diff(dash, axis=0), axis=1).sum() for dash in found]
@@ -207,7 +203,7 @@ def test_dashes_have_the_lines_length_in_turn() -> None:
 
 
 @pytest.mark.parametrize("ground", [None, (1.0, 1.0, 1.0)])
-def test_pixels_show_the_same_parts_over_the_ground(ground: Any) -> None:
+def test_a_figures_pixels_show_its_parts_over_the_ground(ground: Any) -> None:
     items: list[Item] = [
         Segments("line", "ray", np.array([[[-1.0, 0, 0], [1, 0, 0]]]), 4.0),
         Label("name", "text", "ray", np.array([0.0, 0.6, 0])),

@@ -1,4 +1,4 @@
-"""The size of the scene's picture from outside while its camera moves, by a clock that is set."""
+"""The outside view's resolution while its camera moves, by a clock that the test sets."""
 
 from dataclasses import replace
 from types import SimpleNamespace
@@ -16,7 +16,7 @@ SIZE = 40, 30
 
 
 class Painter:
-    """Stands for the rasterizer and the overlay; keeps the sizes that it draws."""
+    """A fake rasterizer and overlay that records the sizes it draws."""
 
     def __init__(self):
         self.sizes = []
@@ -36,7 +36,7 @@ def draw(monkeypatch):
     request = ImageRequest(load_scene("canonical"), Camera.look_at((4, 3, 5), (0, 0, 0)), SIZE)
 
     def draw(after_s, place):
-        """Return the sizes that are drawn `after_s` later for a camera at a place."""
+        """Return the sizes drawn `after_s` later with a camera at a place."""
         now_s[0] += after_s
         painter.sizes.clear()
         camera = replace(request.camera, eye=(place, 3.0, 5.0))
@@ -48,11 +48,11 @@ def draw(monkeypatch):
     return draw
 
 
-def test_a_picture_is_as_fine_as_the_view_while_all_are_in_time(draw):
+def test_fast_pictures_have_the_full_resolution(draw):
     assert [draw(SLOW_S / 2, place) for place in range(5)] == 5 * [[SIZE]]
 
 
-def test_from_a_late_picture_on_all_are_half_as_fine_until_the_camera_rests(draw):
+def test_a_slow_picture_halves_the_resolution_until_the_camera_rests(draw):
     half = SIZE[0] // 2, SIZE[1] // 2
     assert draw(0, 0) == [SIZE]
     assert draw(2 * SLOW_S, 1) == [half]

@@ -32,31 +32,31 @@ positions = st.floats(0, END)
 pixels = st.tuples(st.integers(0, SIZE[1] - 1), st.integers(0, SIZE[0] - 1))
 
 
-def _terms(camera: Camera, pixel: tuple[int, int], position: float) -> list[Term]:
+def terms_at(camera: Camera, pixel: tuple[int, int], position: float) -> list[Term]:
     x, y = (float(value) for value in camera.image_point(*pixel, SIZE))
     return terms(camera, x, y, stage_shares(position))
 
 
 @given(cameras(), pixels)
 def test_the_whole_formula_is_the_viewing_ray_head_to_tail(camera, pixel) -> None:
-    vectors = {one.name: one for one in _terms(camera, pixel, END)}
+    vectors = {term.name: term for term in terms_at(camera, pixel, END)}
     ray = camera.ray(*pixel, SIZE)
     length = np.linalg.norm(ray.direction)
     assert np.allclose(vectors["d"].start, ray.origin)
     assert np.allclose(vectors["d"].end - vectors["d"].start, ray.direction, atol=1e-9 * length)
     chain = [vectors[name] for name in "wuv" if name in vectors]
-    for one, following in itertools.pairwise(chain):
-        assert np.array_equal(one.end, following.start)
-    assert np.allclose(chain[0].start, camera.eye) and len(chain) >= 1
+    for term, following in itertools.pairwise(chain):
+        assert np.array_equal(term.end, following.start)
+    assert np.allclose(chain[0].start, camera.eye)
     reached = ray.origin if camera.is_parallel else ray.origin + ray.direction
     assert np.allclose(chain[-1].end, reached, atol=1e-9 * length)
 
 
 @given(cameras(), pixels, positions, positions)
 def test_a_growing_construction_never_shrinks(camera, pixel, one, other) -> None:
-    """No term gets shorter, and none begins before the one it is added to has arrived."""
+    """No term gets shorter, and none begins before the previous one is complete."""
     first, last = sorted((one, other))
-    before, after = (_terms(camera, pixel, position) for position in (first, last))
+    before, after = (terms_at(camera, pixel, position) for position in (first, last))
     for name in ("w", "u", "v"):
         lengths = [
             sum(np.linalg.norm(v.end - v.start) for v in now if v.name == name)
@@ -75,7 +75,7 @@ def test_from_perspective_to_parallel_each_ray_goes_through_its_pixel() -> None:
     for share in (0.01, 0.3, 0.7, 1.0):
         options = OutsideOptions(formula=6.0, to_parallel=share)
         items = grown_diagram(Content(CAMERA, SIZE, options, 9.0, marked=pixel))
-        (ray,) = (one for one in items if isinstance(one, Segments) and one.name == "ray")
+        (ray,) = (item for item in items if isinstance(item, Segments) and item.name == "ray")
         start, end = ray.segments[0]
         center = np.asarray(CAMERA.eye) - (1 - share) * CAMERA.distance * w + across
         assert np.linalg.norm(np.cross(end - start, center - start)) < 1e-9
@@ -91,25 +91,25 @@ def test_numbers_take_the_place_of_the_formulas_letters() -> None:
     assert {"0.15 vec(u)", "0.25 vec(v)", "-1 vec(w)", "vec(d) = (0.15, 0.25, -1)"} <= texts
 
 
-def _names(position: float | None, camera: Camera = CAMERA) -> set[tuple[type, str]]:
+def names_at(position: float | None, camera: Camera = CAMERA) -> set[tuple[type, str]]:
     options = OutsideOptions(formula=position)
     items = grown_diagram(Content(camera, SIZE, options, 9.0, marked=RayEnd((5, 50), 2.0)))
     return {(type(item), item.name) for item in items}
 
 
 def test_a_hit_is_drawn_once_the_ray_has_reached_it() -> None:
-    assert (Dot, "hit") not in _names(5.5)
-    assert (Dot, "hit") in _names(6.0)
+    assert (Dot, "hit") not in names_at(5.5)
+    assert (Dot, "hit") in names_at(6.0)
 
 
 def test_the_ray_comes_last_and_nothing_is_missing_at_the_end() -> None:
     for position in np.linspace(0, END - 1, 9).tolist():
-        assert (Segments, "ray") not in _names(position)
-    assert _names(None) <= _names(float(END))
-    assert {(Arrow, f"term {name}") for name in "wuvd"} <= _names(float(END))
-    assert (Label, "pixel") in _names(0.5) and (Label, "centre") in _names(1.5)
+        assert (Segments, "ray") not in names_at(position)
+    assert names_at(None) <= names_at(float(END))
+    assert {(Arrow, f"term {name}") for name in "wuvd"} <= names_at(float(END))
+    assert (Label, "pixel") in names_at(0.5) and (Label, "centre") in names_at(1.5)
     plain = diagram(Content(CAMERA, SIZE, OutsideOptions(), 9.0, marked=RayEnd((5, 50), 2.0)))
-    assert {(type(item), item.name) for item in plain} == _names(None)
+    assert {(type(item), item.name) for item in plain} == names_at(None)
 
 
 @pytest.mark.parametrize("title", ["Any camera", "Parallel: the pixel moves the origin"])

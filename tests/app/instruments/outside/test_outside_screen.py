@@ -1,4 +1,4 @@
-"""From the world to the pixels of the outside view."""
+"""Projection from the world to the pixels of the outside view."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ class TestScreen:
             assert np.isclose(depth, parameter if camera.is_parallel else 1 / parameter)
 
     @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-    def test_the_way_to_the_viewer_is_a_unit_vector(self, projection: Any) -> None:
+    def test_the_direction_to_the_viewer_is_a_unit_vector(self, projection: Any) -> None:
         camera = Camera(eye=(0, 0, 5), w=(0, 0, 2), projection=projection)
         screen = OutsideScreen(camera, SIZE)
         assert np.allclose(screen.toward_viewer(np.array([0.0, 0.0, -3.0])), (0, 0, 1))
         assert np.allclose(screen.toward_viewer(np.array([0.0, 0.0, 5.0])), (0, 0, 1))
 
     @given(cameras(), st.lists(st.tuples(vectors, vectors), min_size=1, max_size=10))
-    def test_segments_are_cut_to_the_guard(self, camera: Camera, ends: list[Any]) -> None:
+    def test_segments_are_clipped_to_the_guard(self, camera: Camera, ends: list[Any]) -> None:
         screen = OutsideScreen(camera, SIZE, 1e-3)
         world = 3 * np.array(ends)
         points, depth, numbers = screen.segments(world)
@@ -47,22 +47,21 @@ class TestScreen:
         assert (np.abs(points - np.array(SIZE) / 2) <= 4.001 * np.array(SIZE) / 2).all()
         assert (depth > 0).all()
         for segment, number in zip(points, numbers, strict=True):
-            inside = [screen.seen(end) for end in world[number]]
-            for end, spot in zip(segment, inside, strict=True):
+            for end, spot in zip(segment, map(screen.seen, world[number]), strict=True):
                 if spot.visible:
                     atol = 1e-6 * (1 + np.abs(spot.points).max())
                     assert np.allclose(end, spot.points, atol=atol)
-        seen = {k for k, pair in enumerate(world) if screen.seen(pair).visible.any()}
-        assert seen <= set(numbers.tolist())
+        visible = {k for k, pair in enumerate(world) if screen.seen(pair).visible.any()}
+        assert visible <= set(numbers.tolist())
 
-    def test_what_comes_from_behind_is_cut_where_it_appears(self) -> None:
+    def test_a_segment_from_behind_is_clipped_at_near(self) -> None:
         screen = OutsideScreen(Camera.canonical(), (100, 100), 0.5)
         points, depth, _ = screen.segments(np.array([[[0, 0, 5.0], [0.5, 0, -5.0]]]))
         # At t = 0.5 the segment is at x = 0.275; seen from the eye, 0.55 to the right of it.
         assert np.allclose(points[0, 0], (50 + 55, 50))
         assert np.allclose(depth[0], (2.0, 0.2))
 
-    def test_a_polygon_round_the_viewer_is_cut(self) -> None:
+    def test_a_polygon_around_the_viewer_is_clipped(self) -> None:
         corners = np.array([[-9, -1, 9], [9, -1, 9], [9, -1, -9], [-9, -1, -9]], float)
         points, depth = OutsideScreen(Camera.canonical(), (100, 100), 0.1).polygon(corners)
         assert len(points) >= 3
@@ -90,7 +89,7 @@ class TestScreen:
         (shaft,) = (p for p in parts if isinstance(p, Strokes) and p.name == "u")
         assert np.linalg.norm(shaft.points[0, 1] - tip.points) < 20
 
-    def test_letters_stand_off_the_arrow_and_go_with_short_ones(self) -> None:
+    def test_labels_stand_off_their_arrow_and_vanish_with_short_ones(self) -> None:
         screen = OutsideScreen(Camera.canonical(), (100, 100))
         origin = np.array([0.0, 0, -1])
         label = Label("v", "v", "v", np.array([0, 0.3, -1]), away=origin, strong=True, least=8.0)
@@ -105,7 +104,7 @@ class TestScreen:
 
 
 class TestPlane:
-    def test_the_plane_s_front_is_told_from_its_back_and_its_edge(self) -> None:
+    def test_a_plane_has_a_front_and_a_back_and_is_hidden_edge_on(self) -> None:
         inner = Camera.canonical()
         corners, eye = plane_corners(inner)[[0, 1, 3]], np.asarray(inner.eye)
         behind = Camera.look_at((0, 0, -3), (0, 0, 0))

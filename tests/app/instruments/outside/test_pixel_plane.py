@@ -15,14 +15,14 @@ CAMERA = Camera.look_at((3.2, 1.6, 3.8), (0.0, 0.0, 0.0), fov_y_deg=35.0, aspect
 
 
 @pytest.mark.parametrize("origin", ["center", "corner"])
-def test_whole_numbers_are_drawn_where_k_has_them(origin: PixelOrigin) -> None:
+def test_ticks_are_at_the_whole_coordinates_of_k(origin: PixelOrigin) -> None:
     items = pixel_items(CAMERA, SIZE, origin)
     K, R, t = CAMERA.intrinsics(SIZE, origin)
-    ticks = np.array([item.point for item in items if isinstance(item, Dot) and item.name == "j"])
-    seen = (ticks @ R.T + t) @ K.T
-    columns = np.arange(SIZE[0] + (origin == "corner"))
-    assert np.allclose(seen[:, 0] / seen[:, 2], columns)
-    assert np.allclose(seen[:, 1] / seen[:, 2], 0)
+    for axis, name in enumerate("ji"):
+        ticks = [item.point for item in items if isinstance(item, Dot) and item.name == name]
+        pixels = (np.array(ticks) @ R.T + t) @ K.T
+        wanted = np.outer(np.arange(SIZE[axis] + (origin == "corner")), np.eye(2)[axis])
+        assert np.allclose(pixels[:, :2] / pixels[:, 2:], wanted)
     texts = {item.name: item.text for item in items if isinstance(item, Label)}
     assert texts["focal length"] == f"f = {K[0, 0]:.4g}"
     assert texts["principal point"] == f"c = ({K[0, 2]:.4g}, {K[1, 2]:.4g})"

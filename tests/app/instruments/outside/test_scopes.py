@@ -1,4 +1,4 @@
-"""The camera that looks, and when it follows the other one."""
+"""The outside camera, and when it follows the scene's camera."""
 
 import math
 from dataclasses import replace
@@ -20,7 +20,7 @@ REACH = 3  # cameras are numbers here; a picture shows those that are nearer to 
 
 @pytest.fixture
 def made(monkeypatch):
-    """The scopes that were computed."""
+    """Collect the cameras whose scopes are computed."""
     found = []
 
     def scope(host, *_):
@@ -45,7 +45,7 @@ def host(inner, own=None):
     return SimpleNamespace(inner=inner, state=state, renderers=renderers, focus=focus)
 
 
-def test_nothing_is_computed_twice(made):
+def test_a_scope_is_computed_once(made):
     scopes = Scopes()
     for now_s in (1.0, 1.0, 1.1):
         scopes.of(host("one"), PLACE, NOTHING, now_s)
@@ -55,7 +55,7 @@ def test_nothing_is_computed_twice(made):
     assert made == ["one", "two", "two"]
 
 
-def test_the_view_stays_as_long_as_the_other_camera_is_in_its_picture(made):
+def test_the_view_stays_while_the_moving_camera_is_in_sight(made):
     scopes = Scopes()
     for step in range(8):
         scope = scopes.of(host(step), PLACE, NOTHING, step / 60)
@@ -76,26 +76,26 @@ def test_a_camera_is_in_the_picture_with_its_basis_and_its_image_plane(projectio
     if projection == "parallel":
         view = (-1.5 * half, 1.5 * half, -half, half)
         watching = replace(watching, projection=projection, viewport=view)
-    for eye, is_seen in [
+    for eye, is_visible in [
         ((0.0, 0.0, 0.0), True),
         ((0.0, half - 2.0, 0.0), True),
         ((0.0, half - 0.1, 0.0), False),  # the eye is, its image plane is not
         ((1.5 * half + 1.0, 0.0, 0.0), False),
     ]:
-        assert looking.is_in_picture(replace(Camera.canonical(), eye=eye), watching) == is_seen
+        assert looking.is_in_picture(replace(Camera.canonical(), eye=eye), watching) == is_visible
     if projection == "perspective":
         behind = replace(Camera.canonical(), eye=(0.0, 0.0, 30.0))
         assert not looking.is_in_picture(behind, watching)
 
 
-def test_the_users_own_camera_waits_for_nothing(made):
+def test_the_users_own_camera_moves_at_once(made):
     scopes = Scopes()
     for step in range(4):
         scopes.of(host(step, own="mine"), PLACE, NOTHING, step / 60)
     assert made == list(range(4))
 
 
-def test_a_ray_that_nobody_asks_for_any_more_is_not_awaited():
+def test_an_unmarked_pixels_ray_is_not_awaited():
     hits = RayPictures("test", lambda: None)
     live = SimpleNamespace(tracer_of=lambda _: None, preparing_s=1.0)  # the ray has to wait
     renderers = SimpleNamespace(live=live, size=(40, 30), depth_at=lambda *_: None)

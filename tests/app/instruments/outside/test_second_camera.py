@@ -1,4 +1,4 @@
-"""Another camera in the outside view, given by its rays: any rays draw something, or nothing."""
+"""A second camera in the outside view, drawn from its rays."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lucida.app.instruments.outside.diagram import Dot, Item, Label, Segments
-from lucida.app.instruments.outside.projected import project
+from lucida.app.instruments.outside.projected import Strokes, project
 from lucida.app.instruments.outside.screen import OutsideScreen
 from lucida.app.instruments.outside.second_camera import (
     GivenRay,
@@ -52,7 +52,7 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
     assert isinstance(label, Label) and label.text == "student's"
     x, y = CAMERA.image_point(SIZE[1] - 1, SIZE[0] - 1, SIZE)
     last = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
-    assert np.allclose(label.point, last)  # apart from the first pixel's
+    assert np.allclose(label.point, last)  # opposite the first pixel
     plane = named(items, "second image plane")[0].segments[:, 0]
     x, y = CAMERA.image_point(0, 0, SIZE)
     corner = np.asarray(CAMERA.eye) + CAMERA.basis @ (x, y, -CAMERA.distance)
@@ -68,24 +68,24 @@ def test_a_parallel_camera_has_no_eye_and_its_plane_is_where_its_rays_begin() ->
     assert np.allclose(named(items, "second image plane")[0].segments[:, 0], origins)
 
 
-def test_a_singular_basis_is_drawn_as_it_is() -> None:
+def test_a_singular_basis_is_drawn() -> None:
     """All rays in one plane, which no Camera may have."""
     origins, directions = corners()
     directions[:, 1] = 0.0
-    items = drawn(origins, directions)
-    assert named(items, "second edges")
-    parts = project(items, OutsideScreen(LOOKING, (200, 150)))
+    parts = project(drawn(origins, directions), OutsideScreen(LOOKING, (200, 150)))
+    edges = [part for part in named(parts, "second edges") if isinstance(part, Strokes)]
+    assert [part.points.shape for part in edges] == [(4, 2, 2)]
     assert all(np.isfinite(part.points).all() for part in parts if hasattr(part, "points"))
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, 0.0])
-def test_rays_that_are_none_draw_nothing(bad) -> None:
+def test_invalid_rays_draw_nothing(bad) -> None:
     directions = np.full((4, 3), bad)
     ray = GivenRay(np.zeros(3), np.full(3, bad))
     assert drawn(np.zeros((4, 3)), directions) == [] and second_ray(ray, REACH) == []
 
 
-def test_the_ray_ends_at_its_hit_or_with_the_reach() -> None:
+def test_a_ray_ends_at_its_hit_or_at_the_reach() -> None:
     ray = GivenRay(np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, -2.0]))
     for t, end, hits in ((1.5, -3.0, 1), (None, -REACH, 0), (np.inf, -REACH, 0)):
         items = second_ray(replace(ray, t=t), REACH)

@@ -1,4 +1,4 @@
-"""A set of cameras: what is computed of it, and the way through its list."""
+"""A set of cameras: its frusta, points, names and views."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_a_frustum_s_edges_are_the_rays_through_the_image_s_corners() -> None:
         assert np.allclose(own[4:8, 1], np.roll(edges[:, 1], -1, axis=0))
         tip = own[8:, 1]
         assert np.allclose(tip[0], tip[1])
-        assert ((tip[0] - edges[:2, 1].mean(axis=0)) @ camera.v) > 0  # which way is up
+        assert ((tip[0] - edges[:2, 1].mean(axis=0)) @ camera.v) > 0  # the mark for up
 
 
 def test_a_parallel_camera_has_a_box() -> None:
@@ -57,7 +57,7 @@ def test_a_parallel_camera_has_a_box() -> None:
     assert np.allclose(sides @ np.asarray(camera.v), [camera.viewport[k] for k in (3, 3, 2, 2)])
 
 
-def test_points_are_framed_without_strays_and_drawn_in_no_order() -> None:
+def test_strays_are_not_framed_and_points_are_shuffled() -> None:
     places = np.linspace(-1, 1, 1000)[:, None] * [1.0, 0.5, 0.25]
     places[0], places[1] = (1e6, 0, 0), (np.nan, 0, 0)
     poses = a_set(4, points=places)
@@ -65,7 +65,7 @@ def test_points_are_framed_without_strays_and_drawn_in_no_order() -> None:
     assert poses.high[0] < 4  # the cameras are 3 away
     drawn = poses.points + poses.origin.astype(np.float32)
     first = np.sort(drawn[:100, 0])
-    assert first[0] < -0.8 and first[-1] > 0.8  # a few stand for all
+    assert first[0] < -0.8 and first[-1] > 0.8  # the first ones sample all
     assert np.allclose(np.sort(drawn[:, 0])[:-1], np.sort(places[2:, 0]), atol=1e-5)
     assert (poses.colors == poses.colors[0, 0]).all()  # gray where the file has none
 
@@ -79,7 +79,7 @@ def test_colours_stay_with_their_points() -> None:
     assert np.allclose(drawn, places[poses.colors[:, 0].astype(int), 0], atol=1e-5)
 
 
-def test_a_cloud_is_of_what_is_to_be_seen() -> None:
+def test_a_cloud_bounds_its_frusta_and_visible_points() -> None:
     places = np.array([[0.0, 9.0, 0.0], [0.0, -2.0, 0.0]])
     poses = a_set(4, points=places)
     whole, bare = cloud(poses, True), cloud(poses, False)
@@ -106,10 +106,8 @@ def test_names_leave_out_the_folder_that_all_are_in() -> None:
     assert pose_set(Path("f"), CameraSet("nerf", tuple(same))).names == ("1", "1")
 
 
-def test_a_lens_bends_the_frusta_and_is_kept() -> None:
-    """A fisheye's corners are at the angle that its radius says; where it sees none, its border is
-    drawn.
-    """
+def test_a_lens_bends_the_frusta_and_stays_in_the_view() -> None:
+    """An equidistant corner's angle is its radius; an orthographic lens sees at most 90 degrees."""
     posed = ring(1)[0]
     view = replace(posed.camera, viewport=(-1.0, 1.0, -1.0, 1.0), distance=1.0)
     for model, angle in (("equidistant", 2**0.5), ("orthographic", math.pi / 2)):
@@ -124,17 +122,17 @@ def test_a_lens_bends_the_frusta_and_is_kept() -> None:
         assert poses.view(0).camera.lens == Lens(model)
 
 
-def test_up_is_what_most_images_say() -> None:
+def test_up_is_that_of_most_images() -> None:
     assert np.allclose(a_set(8).up, (0, 1, 0), atol=1e-9)
     turned = [
-        replace(one, camera=replace(one.camera, v=tuple(-x for x in one.camera.v)))
-        for one in ring(8)
+        replace(posed, camera=replace(posed.camera, v=tuple(-x for x in posed.camera.v)))
+        for posed in ring(8)
     ]
     assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(turned))).up, (0, -1, 0))
     long = [
-        replace(one, camera=replace(one.camera, v=tuple(100 * x for x in one.camera.v)))
-        for one in turned[:3]
-    ]  # the length of an axis is no vote
+        replace(posed, camera=replace(posed.camera, v=tuple(100 * x for x in posed.camera.v)))
+        for posed in turned[:3]
+    ]  # lengths have no weight
     assert pose_set(Path("f"), CameraSet("f", (*ring(8)[3:], *long))).up[1] > 0.9
     half = [*ring(8)[:4], *turned[:4]]
     assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(half))).up, (0, 1, 0))
@@ -142,13 +140,13 @@ def test_up_is_what_most_images_say() -> None:
 
 @pytest.mark.parametrize("back", [(0, 0, 1), (1, 2, 0), (0, 1, 0), (0, -3, 0)])
 @pytest.mark.parametrize("up", [(0, 1, 0), (0, -1, 0), (0.6, 0.8, 0)])
-def test_a_set_is_looked_at_from_above(back: tuple[float, ...], up: tuple[float, ...]) -> None:
+def test_a_set_is_seen_from_above(back: tuple[float, ...], up: tuple[float, ...]) -> None:
     way = looked_from(np.array(up, float), np.array(back, float))
     assert np.linalg.norm(way) == pytest.approx(1.0)
     assert 0.2 < way @ up < 0.6
 
 
-def test_the_view_of_a_camera_loses_nothing_in_other_images() -> None:
+def test_a_cameras_view_loses_nothing_in_other_images() -> None:
     poses = a_set(3)
     view = poses.view(1)
     assert view.camera == poses.cameras[1].camera

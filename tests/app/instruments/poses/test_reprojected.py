@@ -36,7 +36,7 @@ def test_points_are_where_the_camera_projects_them(projection: str) -> None:
     assert (picture > 0).any(axis=2).sum() == 3 * 9
 
 
-def test_the_nearest_is_over_the_others_in_any_order() -> None:
+def test_the_nearest_point_is_on_top_in_any_order() -> None:
     line = [(0.0, 0.0, 1.0), (0.0, 0.0, 3.0), (0.0, 0.0, -5.0)]
     for turn in range(3):
         places = [*line[turn:], *line[:turn]]
@@ -44,7 +44,7 @@ def test_the_nearest_is_over_the_others_in_any_order() -> None:
         assert picture.max() == places.index((0.0, 0.0, 3.0)) + 1
 
 
-def test_what_is_behind_or_beside_is_not_there() -> None:
+def test_points_behind_or_beside_the_camera_are_not_drawn() -> None:
     picture = with_points(
         a_model([(0.0, 0.0, 5.0), (30.0, 0.0, 0.0), (0.0, 0.0, 4.0), (0.0, 1e9, 3.9999999)]),
         0,
@@ -53,7 +53,7 @@ def test_what_is_behind_or_beside_is_not_there() -> None:
     assert (picture == int(DARKER * 200)).all()
 
 
-def test_they_are_drawn_on_a_photograph_if_they_are_wanted(tmp_path: Path) -> None:
+def test_points_are_drawn_on_a_photograph_on_request(tmp_path: Path) -> None:
     posed = replace(ring(1)[0], image="a.png")
     places = np.random.default_rng(1).uniform(-0.5, 0.5, (40, 3))
     with_some = CameraSet("colmap", (posed,), (), places)

@@ -55,8 +55,8 @@ def test_readings_are_what_the_tracer_draws(name):
 # The colour.
 
 
-def test_a_colour_term_by_term():
-    """Blinn and Phong on paper: a sphere lit by a point and a directional light."""
+def test_a_colour_is_the_sum_of_its_terms():
+    """Compute Blinn-Phong by hand for a sphere lit by a point and a directional light."""
     sun = DirectionalLight((-1, -2, -2), (0.3, 0.2, 0.1))
     scene = Scene(BALL.objects, (*BALL.lights, sun), BALL.ambient, BALL.background)
     reading = Probe(scene).at((22, 30), Camera.canonical(), SIZE, exposure_ev=0.5)
@@ -92,11 +92,12 @@ def test_a_colour_term_by_term():
     assert reading.color == pytest.approx(tuple(total), rel=1e-6)
     exposed = math.sqrt(2) * total
     assert reading.exposed == pytest.approx(tuple(exposed), rel=1e-6)
-    assert reading.display == pytest.approx(tuple(1.055 * exposed ** (1 / 2.4) - 0.055), rel=1e-5)
-    assert reading.bytes == tuple(to_srgb8(total, 0.5).tolist())
+    display = 1.055 * exposed ** (1 / 2.4) - 0.055
+    assert reading.display == pytest.approx(tuple(display), rel=1e-5)
+    assert reading.bytes == tuple(np.rint(255 * display))
 
     lines = color_lines(reading)
-    assert [one.key for one in lines] == [
+    assert [entry.key for entry in lines] == [
         "reflectance", "specular", "ambient",
         "light 1", "diffuse 1", "halfway 1", "specular 1",
         "light 2", "diffuse 2", "halfway 2", "specular 2",
@@ -124,8 +125,7 @@ def floor_and_ball(mirror: float) -> Scene:
 
 def test_shadows_and_mirrors_are_the_tracers():
     scene = floor_and_ball(0.4)
-    camera, probe = Camera.look_at((1, 4, 6), (0, 0.4, 0), fov_y_deg=50), None
-    probe = Probe(scene)
+    camera, probe = Camera.look_at((1, 4, 6), (0, 0.4, 0), fov_y_deg=50), Probe(scene)
     with Tracer(scene, shadows=True, mirror_depth=2) as tracer:
         frame = tracer.render(camera, SIZE)
     dark = wrong = mirrored = 0
@@ -143,6 +143,6 @@ def test_shadows_and_mirrors_are_the_tracers():
         if reading.bounces and reading.bounces[0].hit is not None:
             mirrored += 1
             assert "sees ball" in line(lines, "mirror 1").name
-    # At a shadow's outline, a ray in float32 may pass on the other side.
+    # At a shadow's outline, a float32 ray may pass on the other side.
     assert wrong <= 2
     assert dark > 6 and mirrored > 3
