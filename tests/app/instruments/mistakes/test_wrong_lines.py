@@ -103,7 +103,7 @@ def test_at_most_two_mistakes_are_on_one_per_line(program) -> None:
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_a_lines_common_mistakes_come_first(program) -> None:
     for line in program.lines:
-        found = model.of_line(program, line.key)
+        found = model.of_line(replace(program, mistakes=program.mistakes[::-1]), line.key)
         assert set(found) == {one for one in program.mistakes if line.key in one.keys}
         order = [one.is_common for one in found]
         assert order[0] and order == sorted(order, reverse=True)

@@ -183,6 +183,11 @@ def test_a_piece_is_outer_if_a_pixel_next_to_it_is_free():
         assert np.array_equal(outer(lines, np.ones(6), size), pieces[~inside.all(axis=0)])
 
 
+def test_an_outline_that_is_partly_behind_the_eye_is_drawn_whole():
+    lines = np.array([[(10, 0), (10, 30)], [(20, 0), (20, 30)]], float)
+    assert np.array_equal(*(outer(lines, np.full(2, layers), (40, 30)) for layers in (0, 1)))
+
+
 def test_a_sphere_has_no_outline_from_inside():
     ball = SceneObject(Sphere((0.1, 0, 0.2), 10.0), Material())
     assert outline_of(ball, CAMERAS[0])[0].shape == (0, 2, 3)
