@@ -26,7 +26,6 @@ def run(*command, **options):
         [str(part) for part in command],
         capture_output=True,
         text=True,
-        timeout=280,
         check=False,
         **options,
     )

@@ -45,8 +45,8 @@ TESTS = {
     "renderer/scene": ("renderer/files", "renderer/editing"),
 }
 NO_MUTANTS = ("imgui_bundle", "moderngl", "numba")  # a window, a driver, machine code
-# Tests of windows, of other processes and of installations: they take minutes.
-SLOW = ("/window/", "checking/running", "/test_wheel", "/test_isolation")
+# Tests of windows and of installations: they take minutes.
+SLOW = ("/window/", "/test_wheel", "/test_isolation")
 NOTICED, TRIED = 0.8, 20  # the share that must be noticed, once so many were tried
 CACHE = type(functools.cache(len))
 FORGOTTEN = ("tests", "lucida/app", "lucida/renderer/camera")  # whose caches are emptied

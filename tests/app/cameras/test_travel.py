@@ -129,7 +129,7 @@ class TestTransition:
             transition.begin(state, target, scene_focus(scene), SIZE, ends)
             clock.s += 0.1
             found = transition.step(target_of(state, "Front"))
-            assert found.view == target_of(state, "Front").view
+            assert transition.under_way and found.view == target_of(state, "Front").view
             moved = with_options(found, outside={"camera": end})
             assert transition.step(moved) is moved
             assert not transition.under_way

@@ -75,6 +75,14 @@ def test_answers_that_are_missing_are_wrong(name):
     assert differ(name, made, []).all()
 
 
+@pytest.mark.parametrize("name", ["render", "render-parallel"])
+def test_one_object_hides_another_in_every_image(name):
+    for case in KINDS["render"].cases(replace(TASKS[name], count=20)):
+        rays = case.camera.rays(case.size)
+        t = [hits(*rays, shape)[0] for shape in case.values["scene"]["objects"]]
+        assert (np.isfinite(t).sum(axis=0) > 1).any()
+
+
 def test_a_basis_is_as_exact_as_its_vectors_are_far_from_parallel_and_no_longer_ones_change_it():
     eye, target, up = np.array([0.0, 0, 3]), np.zeros(3), np.array([0.0, 1, 0])
     assert conditioning(eye, target, up) == pytest.approx(2)

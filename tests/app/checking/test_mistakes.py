@@ -32,6 +32,7 @@ PIXEL = {"i", "j", "width", "height"}
 TASKS = {
     "all": WORDS,
     "from a target": PIXEL | CAMERA_PARTS | {"target", "up"},
+    "from a direction": PIXEL | CAMERA_PARTS | {"forward", "up"},
     "camera to world": PIXEL | CAMERA_PARTS - {"eye"} | {"camera_to_world"},
     "world to camera": PIXEL | CAMERA_PARTS - {"eye"} | {"world_to_camera"},
     "field of view": PIXEL | {"eye", "target", "up", "fov_y", "aspect"},
@@ -101,6 +102,17 @@ PERSPECTIVE = {
 def ray(name):
     program = ray_program(RayTask())
     return run_rays(program, ray_values(CAMERA, 1, 5, (8, 4), RayTask()), (one(program, name),))
+
+
+@pytest.mark.parametrize(
+    "words", [words for words in TASKS.values() if PIXEL & words and words != WORDS]
+)
+def test_the_right_program_uses_the_words_of_its_task(words):
+    task = RayTask(words=frozenset(words))
+    known = ray_values(CAMERA, 1, 5, (8, 4), task) | {"target": (1, 2, 0), "up": (0, 2, 0)}
+    origin, direction = run_rays(ray_program(task), {word: known[word] for word in words})
+    assert origin == pytest.approx(np.array(EYE))
+    assert direction / direction[2] == pytest.approx(np.array(ALONG) / -3)
 
 
 @pytest.mark.parametrize("name", PERSPECTIVE)

@@ -39,9 +39,7 @@ def in_an_empty_folder(tmp_path, monkeypatch):
 
 
 def run_python(*arguments: str, **options) -> subprocess.CompletedProcess:
-    return subprocess.run(
-        [sys.executable, *arguments], text=True, timeout=120, check=False, **options
-    )
+    return subprocess.run([sys.executable, *arguments], text=True, check=False, **options)
 
 
 class TestHelp:

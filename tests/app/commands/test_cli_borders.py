@@ -6,7 +6,6 @@ import contextlib
 import json
 import os
 import re
-import signal
 import socket
 import sys
 from collections.abc import Iterator
@@ -31,20 +30,6 @@ KINDS = ("folder", "pipe", "socket", "/dev/zero", "/dev/full", "link to a folder
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     return tmp_path
-
-
-@pytest.fixture
-def alarm() -> Iterator[None]:
-    """End what hangs, as on a pipe that nobody writes into."""
-
-    def end(*_: object) -> None:
-        raise RuntimeError("it hangs")
-
-    before = signal.signal(signal.SIGALRM, end)
-    signal.alarm(60)
-    yield
-    signal.alarm(0)
-    signal.signal(signal.SIGALRM, before)
 
 
 def make(kind: str, path: Path) -> None:
@@ -80,7 +65,7 @@ BORDERS = [
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("line", BORDERS)
 def test_a_special_file_is_refused(
-    capsys: pytest.CaptureFixture[str], alarm: None, folder: Path, line: str, kind: str
+    capsys: pytest.CaptureFixture[str], folder: Path, line: str, kind: str
 ) -> None:
     (folder / "view.toml").write_text(VIEW, "utf-8")
     (folder / "model.toml").write_text(MODEL.format("f.obj"), "utf-8")
@@ -97,9 +82,7 @@ def test_a_special_file_is_refused(
 @posix
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", ["f.toml", "f.obj", "f.py", "f.png", "f.json", "f"])
-def test_a_special_file_is_not_opened_in_the_window(
-    alarm: None, folder: Path, name: str, kind: str
-) -> None:
+def test_a_special_file_is_not_opened_in_the_window(folder: Path, name: str, kind: str) -> None:
     make(kind, folder / name)
     with pytest.raises(LucidaError, match=name):
         open_sources([name], False)

@@ -37,7 +37,7 @@ def test_bash_completes_commands_options_values_and_files(
     script = capsys.readouterr().out
     assert script.endswith("complete -o default -F _shtab_lucida lucida\n")
     command = ["bash", "-c", script + ASK, "bash", "lucida", *words]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert not done.stderr
     assert sorted(done.stdout.split()) == wanted
 

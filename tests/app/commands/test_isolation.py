@@ -12,7 +12,6 @@ from lucida.renderer.system import child, compile_note
 from lucida.renderer.trace.compile.cache_folder import cache_folder
 
 ROOT = Path(__file__).parents[3]
-LIMIT_S = 280  # the first rendering compiles the tracer
 # What Python, the packages and Lucida import early, late, and by chance; and the packages' names.
 NAMES = """\
 json numpy struct lucida/__init__ lucida/renderer/system/child lucida/renderer/system/doctor
@@ -64,7 +63,6 @@ class Here:
         done = subprocess.run(
             [sys.executable, *(["-P"] if safe else []), *command],
             cwd=self.folder, env=self.environment, capture_output=True, text=True,
-            timeout=LIMIT_S,
         )  # fmt: skip
         ran = self.ran.read_text().split() if self.ran.exists() else []
         assert ran == [], f"{command} imported {ran}"

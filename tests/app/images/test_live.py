@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 import pytest
 from flawed_images import changed, image
+from waiting import PATIENT_S, wait_for
 
 from lucida.app.images import agreement as agreement_module
 from lucida.app.images import progressive_ray as live
@@ -24,7 +24,6 @@ from lucida.renderer.system.errors import LucidaError
 SCENE, OTHER = Scene((SceneObject(Sphere()),)), Scene(())
 TWO = Scene((SceneObject(Sphere()), SceneObject(Sphere())))
 SIZE = (80, 64)
-PATIENT_S = 30.0  # only a hang takes this long
 
 
 class Job:
@@ -97,12 +96,6 @@ class Rig:
         self.tracers.append(Tracer(request.scene, **self.settings))
         return self.tracers[-1]
 
-    def until(self, condition: Callable[[], bool]) -> None:
-        end_s = time.monotonic() + PATIENT_S
-        while not condition():
-            assert time.monotonic() < end_s, "nothing happened"
-            time.sleep(0.001)
-
     @property
     def factors(self) -> list[int]:
         """Return the factors of all images that were traced.
@@ -170,15 +163,15 @@ def test_several_samples_a_pixel_come_after_the_full_image(rig):
 def test_a_change_cancels_the_samples_that_are_still_to_come(rig):
     rig.settings = {"held": True}
     rig.live.request(replace(request(), samples=64))
-    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    wait_for(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
     jobs = rig.tracers[0].jobs
     for number in range(2):
-        rig.until(lambda: len(jobs) == number + 1)  # noqa: B023
+        wait_for(lambda: len(jobs) == number + 1)  # noqa: B023
         jobs[number].ended.set()
-    rig.until(lambda: len(jobs) == 3)
+    wait_for(lambda: len(jobs) == 3)
     assert rig.live.busy
     rig.live.request(request(1.0))
-    rig.until(lambda: len(jobs) == 4)
+    wait_for(lambda: len(jobs) == 4)
     assert jobs[2].cancelled and rig.tracers[0].cameras[3].eye[0] == 1.0
     image = rig.live.poll()
     assert image is not None and image.factor == 1 and image.mean is None
@@ -199,13 +192,13 @@ def test_an_image_that_takes_too_long_is_cancelled_by_the_newest(rig, factor, mo
     monkeypatch.setattr(live, "COARSE_PATIENCE_S", 0.0)
     rig.settings = {"held": True, "is_compiling": True}
     rig.live.request(request(), factor)
-    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    wait_for(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
     tracer = rig.tracers[0]
     assert rig.live.poll() is None and rig.live.busy
-    rig.until(lambda: rig.live.preparing_s > 0)
+    wait_for(lambda: rig.live.preparing_s > 0)
     rig.live.request(request(1.0), factor)
     rig.live.request(request(2.0), factor)
-    rig.until(lambda: tracer.cameras[-1].eye[0] == 2.0)
+    wait_for(lambda: tracer.cameras[-1].eye[0] == 2.0)
     assert tracer.jobs[0].cancelled
     assert rig.live.is_compiling
 
@@ -214,12 +207,12 @@ def test_a_coarse_image_is_finished_despite_changes(rig, monkeypatch):
     monkeypatch.setattr(live, "COARSE_PATIENCE_S", PATIENT_S)
     rig.settings = {"held": True}
     rig.live.request(request(), 4)
-    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    wait_for(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
     rig.live.request(request(1.0), 4)
     job = rig.tracers[0].jobs[0]
     assert not job.cancelled
     job.ended.set()
-    rig.until(lambda: len(rig.tracers[0].jobs) == 2)
+    wait_for(lambda: len(rig.tracers[0].jobs) == 2)
     image = rig.live.poll()
     assert image is not None
     assert image.request == request()
@@ -249,8 +242,8 @@ def test_a_scene_that_takes_long_is_being_prepared(rig):
     tracer = rig.tracers[0]
     tracer.held = True
     rig.live.request(request(scene=OTHER))
-    rig.until(lambda: rig.live.preparing_s > 0)
-    rig.until(lambda: len(tracer.jobs) == 2)
+    wait_for(lambda: rig.live.preparing_s > 0)
+    wait_for(lambda: len(tracer.jobs) == 2)
     tracer.jobs[-1].ended.set()
     rig.images()
     assert rig.live.preparing_s == 0
@@ -271,7 +264,7 @@ def test_closing_cancels_and_does_not_wait_for_ever():
     rig = Rig()
     rig.settings = {"held": True}
     rig.live.request(request())
-    rig.until(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
+    wait_for(lambda: bool(rig.tracers) and len(rig.tracers[0].jobs) == 1)
     rig.live.close(PATIENT_S)
     assert rig.tracers[0].jobs[0].cancelled
     assert rig.tracers[0].closed

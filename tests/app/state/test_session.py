@@ -10,6 +10,7 @@ from option_changes import with_options
 
 from lucida.app.state.app_state import AppState
 from lucida.app.state.options.shared import Bookmark
+from lucida.app.state.removed import without_removed
 from lucida.app.state.session import (
     LARGEST_BYTES,
     VERSION,
@@ -150,3 +151,15 @@ def test_a_newer_session_is_refused_as_such(state):
     data = damaged(to_bytes(session_of(state, ARRANGEMENT)), lucida_session=VERSION + 1)
     with pytest.raises(NewerVersionError, match="update Lucida"):
         from_bytes(data)
+
+
+def test_removed_options_are_left_out_and_replaced_values_have_their_successors():
+    """Successors that are no defaults."""
+    old = {"notation": "code", "laboratory": {"zoom": 2, "page": "heights"}, "pixel": [1, 2]}
+    kept, lines = without_removed(old)
+    assert kept == {"laboratory": {"page": "function"}, "pixel": [1, 2]}
+    assert [line.partition(":")[0] for line in lines] == [
+        "notation is ignored",
+        "laboratory.zoom is ignored",
+        "laboratory.page = 'heights' is now 'function'",
+    ]

@@ -5,21 +5,13 @@ from pathlib import Path
 
 import pytest
 from opened_things import found
+from waiting import wait_for
 
 from lucida.app.window import opening
 from lucida.app.window.files import Files
 from lucida.app.window.opening import OpenedScene
 from lucida.renderer.files import load_scene
 from lucida.renderer.system.cancelling import check_cancelled
-
-PATIENT_S = 120.0
-
-
-def wait_for(condition):
-    end_s = time.monotonic() + PATIENT_S
-    while not condition():
-        assert time.monotonic() < end_s, "nothing happened"
-        time.sleep(0.01)
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ import threading
 import numpy as np
 import pytest
 from opened_things import found
-from waiting import wait_for
+from waiting import PATIENT_S, wait_for
 
 from lucida.app.ui.recent import MOST, RecentFiles
 from lucida.app.window.canvas import Target
@@ -17,9 +17,6 @@ from lucida.renderer.files import load_scene, save_view, scene_parts
 from lucida.renderer.files.scene_parts import BoxTable
 from lucida.renderer.scene import shapes
 from lucida.renderer.system.errors import LucidaError
-
-PATIENT_S = 60.0
-
 
 # Recent files.
 

@@ -26,7 +26,6 @@ def run(*arguments, closed=(), **options):
         env={**os.environ, "PYTHONPATH": path},
         preexec_fn=close,
         text=True,
-        timeout=PATIENT_S,
         check=False,
         **options,
     )

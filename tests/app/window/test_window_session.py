@@ -21,7 +21,6 @@ from lucida.app.ui import layout
 folder, mode = Path(sys.argv[1]), sys.argv[2]
 run = session_window(folder)
 window, file = run.window, folder / "session-1.json"
-frames = iter(range(10**9))
 
 @njit
 def write(array, place):
@@ -32,29 +31,28 @@ def saved():
     return b"spheres" in data and b'"Compare"' in data and b'"light"' in data
 
 def step():
-    frame = next(frames)
-    if mode == "go on":
-        if frame == 30:
-            views = sorted(view.name for view in window.shell.stage.shown)
-            theme = window.state.preferences.theme
-            opened = window.views["Camera"].sections
-            print(layout.current().name, views, theme, window.state.scene.name, opened, sep="|")
-            run.params.app_shall_exit = True
+    if not window.settled or window.is_rearranging:
         return
-    if frame == 5:
+    if mode == "go on":
+        views = sorted(view.name for view in window.shell.stage.shown)
+        theme = window.state.preferences.theme
+        opened = window.views["Camera"].sections
+        print(layout.current().name, views, theme, window.state.scene.name, opened, sep="|")
+        run.params.app_shall_exit = True
+    elif layout.current().name != "Compare":
         layout.switch("Compare")
         window.views["Camera"].open_sections(("Look at",))
-    elif frame == 10:
+    elif window.state.scene.name != "spheres":
         window.shell.stage.show("Raster", False)
         light = window.state.options.with_changes({"preferences": {"theme": "light"}})
         window.change(window.state.with_options(light))
         window.open("spheres")
-    elif frame > 20 and mode == "crash" and saved():
+    elif mode == "close":
+        run.params.app_shall_exit = True
+    elif saved():
         window.renderers.live.make_tracer = lambda _: write(np.zeros(1), 1 << 45)
         shadows = window.state.options.with_changes({"shadows": True})
         window.change(window.state.with_options(shadows))
-    elif frame > 20 and mode == "close" and window.state.scene.name == "spheres":
-        run.params.app_shall_exit = True
 
 stepped(run, step)
 """

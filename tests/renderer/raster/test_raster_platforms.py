@@ -106,7 +106,7 @@ def test_beside_a_windows_context_on_x11(gl_backend, xvfb):
     """GLX, EGL and OSMesa in one thread."""
     environment = {**os.environ, "DISPLAY": xvfb, "PYTHONPATH": import_path(__file__)}
     command = [sys.executable, "-c", WITH_A_WINDOW]
-    done = subprocess.run(command, env=environment, capture_output=True, timeout=280, text=True)
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
     assert done.stdout == "done\n", done.stderr
 
 

@@ -6,8 +6,9 @@ import sys
 from pathlib import Path
 
 import pytest
+from import_path import import_path
 
-ROOT = Path(__file__).parents[3]
+PATH = import_path(str(Path(__file__).parents[1] / "trace" / "test_trace_jobs.py"))
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="POSIX's fork")
 
 # Prints what becomes of each call in a forked process; one that hangs is ended by an alarm.
@@ -32,6 +33,7 @@ def forked(name, call):
         print(name, "hung")
 """
 TRACER = """
+from test_trace_jobs import FRONT, LARGE, slow_scene
 unused = Tracer(scene)
 tracer = Tracer(scene)
 tracer.render(camera, (8, 8))
@@ -39,7 +41,7 @@ forked("unused", lambda: unused.render(camera, (8, 8)).complete)
 forked("new", lambda: Tracer(scene).render(camera, (8, 8)).complete)
 forked("used", lambda: tracer.render(camera, (8, 8)).complete)
 forked("closed", lambda: tracer.close())
-job = tracer.start(camera, (6000, 6000))
+job = Tracer(slow_scene(), method="reference").start(FRONT, LARGE)
 while not job.progress:
     time.sleep(0.001)
 forked("result", lambda: job.result())
@@ -68,8 +70,7 @@ print("parent", rasterizer.render(camera, (8, 8)).complete)
 def outcomes(script, folder):
     done = subprocess.run(
         [sys.executable, "-c", SCRIPT + script],
-        cwd=folder, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True,
-        timeout=280,
+        cwd=folder, env={**os.environ, "PYTHONPATH": PATH}, capture_output=True, text=True,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from numba.core import event
 from textured import noise, on_ball
-from waiting import PATIENT_S, is_running, wait_for
+from waiting import is_running, wait_for
 
 from lucida.renderer.camera.camera import Camera
 from lucida.renderer.camera.lenses import Lens
@@ -157,9 +157,7 @@ print(child.pid, *(copy.pid for copy in copies))
 @pytest.mark.skipif(not can_fork(), reason="each part has a process of its own")
 def test_copies_of_a_compiling_process_end_with_its_parent(tmp_path):
     env = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
-    done = subprocess.run(
-        [sys.executable, "-c", COPIED], env=env, capture_output=True, text=True, timeout=PATIENT_S
-    )
+    done = subprocess.run([sys.executable, "-c", COPIED], env=env, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     processes = [int(word) for word in done.stdout.split()]
     wait_for(lambda: not any(map(is_running, processes)))

@@ -17,7 +17,6 @@ from lucida.renderer.system import compile_note
 from lucida.renderer.trace.compile import compiled
 from lucida.renderer.trace.compile.cache_folder import prune, source_hash
 
-HANG_S = 280
 SMALL_KERNEL = """
 from lucida.renderer.trace.compile.compiled import kernel
 
@@ -80,7 +79,7 @@ def start(installation, cache, script=SCRIPT):
 
 
 def finish(process):
-    out, err = process.communicate(timeout=HANG_S)
+    out, err = process.communicate()
     assert process.returncode == 0, err
     assert err == ""
     return out.strip()

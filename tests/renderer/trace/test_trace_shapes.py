@@ -1,4 +1,4 @@
-"""Single shapes whose image is known, and scenes at the limits."""
+"""Single shapes with known images, and scenes at the limits."""
 
 import math
 from dataclasses import replace
@@ -39,10 +39,8 @@ def draw(scene, camera=FRONT, size=(48, 48), method="packets"):
 
 
 @pytest.mark.parametrize("faces", [[(0, 1, 2)], [(0, 1, 2), (1, 3, 2)]])
-def test_weights_are_those_of_the_triangle_the_object_and_the_image(faces):
-    """Nothing of the triangle before is kept: a tile holds a mesh twice, and is seen from one
-    camera after the other.
-    """
+def test_vertex_weights_belong_to_the_triangle_object_and_image(faces):
+    """Nothing is kept from the previous triangle, object or camera."""
     corners = np.array([[-1, -1, 0], [0, -1, 0], [-1, 1, 0], [0, 1, 0]], float)
     right = np.eye(4)
     right[0, 3] = 1
@@ -66,26 +64,24 @@ def test_nothing_is_hit_in_an_empty_scene():
     assert (frame.primitive == -1).all()
 
 
-def test_near_and_far_cut_by_the_parameter():
+def test_near_and_far_bound_the_rays_parameter():
     scene = scene_of(quad(1, 0), Sphere((0, 0, -2), 0.5))
     camera = Camera((0, 0, 5), distance=2, viewport=(-0.1, 0.1, -0.1, 0.1))
     for near, far, want in (
         (None, None, 2.5),
         (4.99, 5.01, 2.5),
         (5.0, None, 3.25),  # t > t_min, not >=
-        (6.6, None, 3.75),  # the near side cut off: the far side of the sphere is seen
+        (6.6, None, 3.75),  # inside the sphere: its far side is hit
         (None, 5.0, math.inf),
         (7.6, 9.0, math.inf),
     ):
-        cut = Camera(
-            camera.eye, distance=2, viewport=camera.viewport, near=near, far=far
-        )  # fmt: skip
+        cut = replace(camera, near=near, far=far)
         exact = draw(scene, cut, (1, 1), method="reference").depth[0, 0]
         assert exact == np.float32(want)
         assert draw(scene, cut, (1, 1)).depth[0, 0] == pytest.approx(want, rel=1e-6)
 
 
-def test_rays_that_touch_a_sphere():
+def test_a_tangent_ray_hits_a_sphere():
     camera = Camera((0, 0, 5), viewport=(0.5, 1.5, -0.5, 0.5), projection="parallel")
     for method in METHODS:
         frame = draw(scene_of(Sphere()), camera, (1, 1), method)
@@ -112,7 +108,7 @@ def test_triangles_without_area_are_never_hit():
     assert (draw(both, FRONT).id == 1).any()
 
 
-def test_rays_that_run_in_the_faces_of_boxes():
+def test_rays_in_the_planes_of_bounding_boxes_hit():
     # Axis-parallel rays, from origins on the planes of the triangles' bounding boxes.
     flat = flatten(scene_of(quad(1, 0), quad(1, -1), Sphere((0, 0, -4), 1.0)))
     grid = np.array([-1.0, -0.5, 0.0, 0.5, 1.0])
@@ -137,7 +133,7 @@ def test_sizes_beyond_precision_give_no_nan(eye, radius):
         draw(scene_of(*shapes, material=Material(checker=Checker())), camera, (9, 9))
 
 
-def test_a_checkers_face_on_a_cells_border_stays_one_cell():
+def test_a_face_on_the_border_of_checker_cells_stays_in_one_cell():
     checker = Material((1, 1, 1), checker=Checker((0, 0, 0), 1.0))
     scene = Scene((SceneObject(quad(2, 0.5), checker),), ambient=(1, 1, 1))
     camera = Camera((0, 0, 3), viewport=(-2, 2, -2, 2), projection="parallel")
@@ -147,12 +143,12 @@ def test_a_checkers_face_on_a_cells_border_stays_one_cell():
     assert np.array_equal(color, 1 - odd)
 
 
-def test_of_equally_near_faces_the_first_is_seen():
+def test_the_first_of_equally_near_faces_is_hit():
     frame = draw(scene_of(quad(1, 0), quad(1, 0)), method="reference")
     assert set(np.unique(frame.id)) == {-1, 0}
 
 
-def test_wrong_settings_of_the_tracer_are_told():
+def test_wrong_settings_of_the_tracer_are_refused():
     with pytest.raises(LucidaError, match="threads: 0 is not in"):
         Tracer(scene_of(quad()), threads=0)
     with Tracer(scene_of(quad())) as tracer:

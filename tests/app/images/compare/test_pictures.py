@@ -1,4 +1,4 @@
-"""The compare view's marks on pixels, which are large enough to be seen."""
+"""The compare view's marks on pixels, enlarged to be visible."""
 
 import numpy as np
 
@@ -14,14 +14,14 @@ def test_marked_pixels_have_their_causes_colours():
     assert (picture[..., 3] == np.where(labels == AGREE, 0, 255)).all()
 
 
-def test_single_pixels_are_enlarged_so_that_they_can_be_seen():
+def test_single_pixels_are_enlarged():
     labels = np.zeros((40, 50), np.uint8)
     labels[0, 0], labels[20, 20], labels[20, 22] = 1, 2, UNEXPLAINED
     large = enlarged(labels)
     assert (large[:2, :2] == 1).all()
     assert large[2, 2] == RIM
     assert (large[19:22, 19:21] == 2).all()
-    assert (large[19:22, 21:24] == UNEXPLAINED).all()  # above the cause that is known
+    assert (large[19:22, 21:24] == UNEXPLAINED).all()  # over the known cause
     assert large[20, 18] == large[18, 20] == large[22, 24] == RIM
     assert large[39, 49] == AGREE
     assert (LABEL_COLORS[RIM] == 0).all()

@@ -1,4 +1,4 @@
-"""A pixel's row and column as somebody types them."""
+"""Reading a typed row and column."""
 
 import pytest
 
@@ -23,7 +23,7 @@ def test_a_typed_pixel_is_read_in_either_indexing(texts, indexing, pixel):
 
 
 @pytest.mark.parametrize(
-    ("texts", "indexing", "told"),
+    ("texts", "indexing", "message"),
     [
         (("0", "1"), Indexing.LECTURE, "'0' is no row of this image; give 1 to 6"),
         (("7", "1"), Indexing.LECTURE, "'7' is no row of this image; give 1 to 6"),
@@ -36,7 +36,7 @@ def test_a_typed_pixel_is_read_in_either_indexing(texts, indexing, pixel):
         (("1", "9" * 5000), Indexing.ARRAY, "is no column"),
     ],
 )
-def test_a_typed_mistake_is_told(texts, indexing, told):
+def test_a_typed_mistake_is_refused(texts, indexing, message):
     with pytest.raises(LucidaError) as caught:
         parsed_pixel(texts, SIZE, indexing)
-    assert told in str(caught.value)
+    assert message in str(caught.value)

@@ -1,4 +1,4 @@
-"""The ways of a photograph into the window: named, dropped, in a lecture, in a session."""
+"""Opening photographs: by name, by a drop, in a lecture and in a session."""
 
 from pathlib import Path
 
@@ -37,7 +37,7 @@ def test_a_scene_and_a_photograph_are_opened_together(photo):
     assert opened.find(OpenedPhotograph) == OpenedPhotograph(str(photo))
 
 
-def test_what_is_no_picture_opens_nothing_but_the_others(photo, tmp_path):
+def test_an_unreadable_picture_does_not_stop_the_others(photo, tmp_path):
     bad = tmp_path / "bad.jpg"
     bad.write_text("no picture")
     with pytest.raises(LucidaError, match="is not a readable picture"):
@@ -47,7 +47,7 @@ def test_what_is_no_picture_opens_nothing_but_the_others(photo, tmp_path):
     assert "bad.jpg" in opened.problems[0]
 
 
-def test_a_lecture_names_one_beside_itself(photo):
+def test_a_lecture_names_a_photograph_in_its_folder(photo):
     file = photo.parent / "lecture.toml"
     file.write_text(STEP + f'options.photograph.file = "{photo.name}"\n')
     options = load_lecture(file).steps[0].changes["photograph"]
@@ -57,7 +57,7 @@ def test_a_lecture_names_one_beside_itself(photo):
         load_lecture(file)
 
 
-def test_a_session_keeps_it(photo):
+def test_a_session_keeps_the_photograph(photo):
     state = with_photograph(
         AppState.for_scene(load_scene("still-life")),
         str(photo) + "\udcff",

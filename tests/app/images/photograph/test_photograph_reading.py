@@ -1,4 +1,4 @@
-"""Photographs from files: upright, in as many pixels as wanted; or one line why not."""
+"""Photographs from files: upright, at the requested size, or refused in one line."""
 
 import numpy as np
 import pytest
@@ -41,7 +41,7 @@ def test_each_format_is_known_and_read(tmp_path, name):
 
 @pytest.mark.parametrize("orientation", range(1, 9))
 def test_a_photograph_stands_upright_in_every_orientation(tmp_path, orientation):
-    """As the EXIF specification has it: where the file's row 0 and column 0 are to be seen."""
+    """Compare with the EXIF specification's places of the file's row 0 and column 0."""
     exif = Image.Exif()
     exif[ORIENTATION] = orientation
     upright = {
@@ -58,11 +58,11 @@ def test_a_photograph_stands_upright_in_every_orientation(tmp_path, orientation)
     photograph = decoded(path, WHOLE)
     assert photograph.size == upright.shape[1::-1]
     assert np.array_equal(photograph.pixels[..., :3], upright)
-    half = (photograph.size[0] // 2, photograph.size[1])  # wanted as it is seen
+    half = (photograph.size[0] // 2, photograph.size[1])  # of the upright photograph
     assert decoded(path, half).pixels.shape[1::-1] == half
 
 
-def test_no_more_pixels_than_wanted_each_the_mean_of_what_it_covers(tmp_path):
+def test_a_reduced_photograph_has_the_mean_of_the_pixels_that_each_covers(tmp_path):
     pixels = np.zeros((4, 4, 3), np.uint8)
     pixels[:2, :2] = ((0, 40, 80), (100, 140, 180)), ((0, 40, 80), (100, 140, 180))
     photograph = decoded(saved(tmp_path, pixels), (2, 3))
@@ -80,7 +80,7 @@ def test_a_large_jpeg_is_not_decoded_in_full(tmp_path, monkeypatch):
         decoded(saved(tmp_path, pixels, "a.png"), (64, 64))
 
 
-def test_what_is_transparent_stays_so(tmp_path):
+def test_transparency_is_kept(tmp_path):
     pixels = np.zeros((1, 3, 4), np.uint8)
     pixels[0] = (200, 100, 50, 0), (200, 100, 50, 128), (200, 100, 50, 255)
     photograph = decoded(saved(tmp_path, pixels), WHOLE)
@@ -97,7 +97,7 @@ def test_gray_palettes_and_16_bits_are_read(tmp_path):
     assert decoded(path, WHOLE).pixels[0, 0].tolist() == [10, 20, 30, 255]
 
 
-def test_what_cannot_be_read_is_one_line(tmp_path):
+def test_an_unreadable_file_is_refused_in_one_line(tmp_path):
     good = saved(tmp_path, PIXELS).read_bytes()
     cases = {"cut.png": good[:-30], "text.jpg": b"no", "empty.tif": b"", "short.webp": b"RIFF"}
     for name, data in cases.items():
@@ -108,10 +108,10 @@ def test_what_cannot_be_read_is_one_line(tmp_path):
     for name in (*cases, "numbers.tif"):
         with pytest.raises(LucidaError) as caught:
             found_photograph(str(tmp_path / name))
-        told = describe(caught.value)
-        assert name in told and "\n" not in told, told
+        message = describe(caught.value)
+        assert name in message and "\n" not in message, message
 
 
-def test_a_name_that_no_system_takes():
+def test_a_name_with_a_null_is_refused():
     with pytest.raises(LucidaError, match="cannot be read"):
         found_photograph("a\0b.png")

@@ -1,4 +1,4 @@
-"""Displays in time: what shines when; the mean over a cycle is the pixel's linear colour."""
+"""Displays over time: the mean of a cycle is the pixel's linear colour."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ TUBE, DLP, LCD, LED = DISPLAYS
 
 @pytest.fixture
 def color() -> np.ndarray:
-    """5 x 7 pixels, black and white among them."""
+    """Return 5 x 7 pixels, including black and white."""
     part = np.random.default_rng(3).uniform(0, 1, (5, 7, 3)).astype(np.float32)
     part[0, 0], part[4, 6], part[2, 3] = 0, 1, (1, 0, 0.5)
     return part
@@ -25,7 +25,7 @@ def cycle(kind, color: np.ndarray, moments: int = MOMENTS) -> np.ndarray:
 
 
 @pytest.mark.parametrize("kind", DISPLAYS, ids=lambda kind: kind.title)
-def test_the_mean_over_a_cycle_is_the_share_of_white_that_the_color_is(kind, color):
+def test_the_mean_of_a_cycle_is_the_color_relative_to_white(kind, color):
     light, white = cycle(kind, color), cycle(kind, np.ones_like(color))
     share = light.mean(axis=0) / white.mean(axis=0)
     np.testing.assert_allclose(share, color, atol=4 / MOMENTS / white.mean())
@@ -38,8 +38,8 @@ def test_a_tube_is_scanned_line_by_line_and_fades():
     for number in range(24):
         light = TUBE.light(white, number / 24)[..., 0]
         assert light[number // 6, number % 6] == pytest.approx(1) and (light > 0.999).sum() == 1
-        # The one before is dimmer, the one that comes next is the dimmest.
-        order = np.roll(light.ravel(), -number)  # from the present one on, in the beam's order
+        # The longer ago the beam has passed a pixel, the dimmer it is.
+        order = np.roll(light.ravel(), -number)  # from the current pixel on
         assert (np.diff(order[1:]) > 0).all()
     later = TUBE.light(white, 0.25)[0, 0] / TUBE.light(white, 0.15)[0, 0]
     np.testing.assert_allclose(later, np.exp(-0.1 / FADING), rtol=1e-5)

@@ -1,4 +1,4 @@
-"""The laboratory's drawings: they fit, they can be read from afar, and what they show is true."""
+"""The laboratory's drawings: they fit, are legible from afar, and show correct numbers."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from lucida.app.instruments.laboratory.kinds import KINDS
 from lucida.app.instruments.laboratory.looks import look_of
 from lucida.app.instruments.laboratory.page import Page
 from lucida.app.instruments.laboratory.pages import PAGES, drawn
-from lucida.app.instruments.laboratory.sheet import LIGHTS, between, reached
+from lucida.app.instruments.laboratory.sheet import between, reached
 from lucida.app.instruments.outside.figure import Figure, Label, Line, Picture, Polygon
 from lucida.app.instruments.outside.svg import svg
 from lucida.app.state.options.laboratory import LONGEST, LaboratoryOptions
 from lucida.app.ui import palettes, theme
 from lucida.renderer.camera.camera import Camera
 
-# Of sheets, with the heights of the windows that they are in; the last is a phone's page.
+# Sheets, with the heights of their windows; the last is a page on a phone.
 SIZES = {(1280, 1080): 1080, (853, 720): 720, (683, 768): 768, (1920, 1080): 1080, (360, 480): 0}
-CAPITALS = 22 / 1080  # their height, in parts of the window's, as large as the last row needs
+CAPITALS = 22 / 1080  # their height relative to the window's, legible from the last row
 
 
 def page_of(page: str, size=(853, 720), progress: float = 0.0, **options) -> Page:
@@ -57,12 +57,12 @@ def points_of(figure: Figure) -> np.ndarray:
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("page", PAGES)
 def test_every_build_fits_and_can_be_read(page, size):
-    step = 0.5 if size == (853, 720) else 1.0  # sizes differ in the room that a whole build has
+    step = 0.5 if size == (853, 720) else 1.0  # other sizes: whole builds
     for progress in np.arange(0, PAGES[page].builds + 0.5, step):
         figure = figure_of(page, size, float(progress))
         points = points_of(figure)
         assert np.isfinite(points).all()
-        if progress % 1 == 0:  # on the way to the next build, things may leave
+        if progress % 1 == 0:  # between builds, parts may leave the sheet
             assert (points >= -0.5).all() and (points <= np.array(size) + 0.5).all(), (
                 progress, points.min(axis=0), points.max(axis=0))  # fmt: skip
         texts = [part for part in figure.parts if isinstance(part, Label)]
@@ -80,7 +80,7 @@ def test_each_build_is_a_picture_of_its_own_and_a_file(page):
     assert PAGES[page].builds <= LONGEST
 
 
-def test_what_is_between_two_builds():
+def test_builds_are_interpolated():
     assert [reached(p, 2) for p in (0.0, 1.0, 1.25, 2.0, 3.0)] == [0, 0, 0.25, 1, 1]
     assert [float(between(p, (1, 3, 7))) for p in (0.0, 0.5, 1.0, 1.5, 2.0, 9.0)] == [
         1, 2, 3, 5, 7, 7]  # fmt: skip
@@ -99,7 +99,6 @@ def test_discs_of_light_add_where_they_overlap():
              if isinstance(part, Label)]  # fmt: skip
     assert sorted(words) == ["cyan", "magenta", "white", "yellow"]
     assert len({*map(tuple, light.discs(2.0).round(9).tolist())}) == 1
-    assert len(LIGHTS) == 3
 
 
 def test_bars_of_storage_are_to_scale():
@@ -141,8 +140,8 @@ def test_both_representations_show_the_same_part():
         raster, vector = (part for part in figure_of("shapes", progress=progress).parts
                           if hasattr(part, "figure"))  # fmt: skip
         assert raster.scale == vector.scale and raster.first == vector.first
-        seen = np.subtract(raster.high, raster.low) / raster.scale
-        np.testing.assert_allclose(seen, shapes.SIDE_PX / zoom)
+        part = np.subtract(raster.high, raster.low) / raster.scale
+        np.testing.assert_allclose(part, shapes.SIDE_PX / zoom)
 
 
 def test_few_pixels_are_numbered_and_counted():
@@ -174,9 +173,7 @@ SKETCHES = {
 
 def figures(page: str) -> list[Figure]:
     last = PAGES[page].builds
-    wide = [
-        figure_of(page, progress=float(one), phase=0.3) for one in np.arange(0, last + 0.5, 0.5)
-    ]
+    wide = [figure_of(page, progress=float(at), phase=0.3) for at in np.arange(0, last + 0.5, 0.5)]
     return [*wide, figure_of(page, (360, 480), float(last), phase=0.3)]
 
 

@@ -1,4 +1,4 @@
-"""The laboratory's lines and pictures, without a window."""
+"""The mistakes' programs and pictures, without a window."""
 
 from __future__ import annotations
 
@@ -42,16 +42,16 @@ def situation(state: AppState = STATE, columns: int = 64) -> Situation:
 
 
 @pytest.mark.parametrize("state", [STATE, PARALLEL])
-def test_the_right_lines_make_the_ray_image(painter, state) -> None:
+def test_the_correct_program_draws_the_ray_image(painter, state) -> None:
     now = situation(state)
     both = model.compared(painter, now, ())
     image = painter.tracer.render(now.camera, now.size, ("color",)).channel("color")
-    looks = [to_srgb8(light, 0.0) for light in (both.right, image)]
-    assert changed_pixels(*looks).mean() < 0.01
+    pictures = [to_srgb8(light, 0.0) for light in (both.right, image)]
+    assert changed_pixels(*pictures).mean() < 0.01
     assert both.wrong is both.right and both.ray is None
 
 
-def test_a_wrong_line_makes_another_picture(painter) -> None:
+def test_a_mistake_changes_the_picture_and_its_pixels_are_marked(painter) -> None:
     now = situation()
     mistakes = model.named(now.program, ("rows count upwards",))
     both = model.compared(painter, now, mistakes)
@@ -66,7 +66,7 @@ def test_a_wrong_line_makes_another_picture(painter) -> None:
     assert model.told_difference(changed).endswith("% of the pixels")
 
 
-def test_the_corners_and_the_marked_pixel_s_ray_are_the_wrong_camera_s(painter) -> None:
+def test_the_drawn_rays_are_those_of_the_mistakes(painter) -> None:
     now = situation(with_options(STATE, marked=(30, 40)))
     assert now.pixel is not None
     mistakes = model.named(now.program, ("no eye", "along +w"))
@@ -79,7 +79,7 @@ def test_the_corners_and_the_marked_pixel_s_ray_are_the_wrong_camera_s(painter) 
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_mistakes_are_switched_one_a_line_two_in_all(program) -> None:
+def test_at_most_two_mistakes_are_on_one_per_line(program) -> None:
     for mistake in program.mistakes:
         chosen = model.switched(program, (), mistake.name)
         assert chosen == (mistake.name,) and model.switched(program, chosen, mistake.name) == ()
@@ -101,16 +101,16 @@ def test_mistakes_are_switched_one_a_line_two_in_all(program) -> None:
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
-def test_the_mistakes_of_a_line_the_common_ones_first(program) -> None:
+def test_a_lines_common_mistakes_come_first(program) -> None:
     for line in program.lines:
-        found = model.of_line(program, line.key)
+        found = model.of_line(replace(program, mistakes=program.mistakes[::-1]), line.key)
         assert set(found) == {one for one in program.mistakes if line.key in one.keys}
         order = [one.is_common for one in found]
         assert order[0] and order == sorted(order, reverse=True)
 
 
-def test_sizes_and_pixels_of_pictures() -> None:
-    """As coarse as the images if those are coarser, and not higher than the thread can do."""
+def test_pictures_have_the_images_shape_and_a_limited_size() -> None:
+    """Pixels are scaled with the picture."""
     for resolution, images, size in (
         (None, (800, 600), (160, 120)),
         (None, (0, 0), (160, 120)),
@@ -128,6 +128,6 @@ def test_sizes_and_pixels_of_pictures() -> None:
         assert model.scaled_pixel(pixel, old, new) == scaled
 
 
-def test_unknown_names_are_told() -> None:
+def test_unknown_names_are_reported() -> None:
     names = tuple(mistake.name for program in PROGRAMS for mistake in program.mistakes)
     assert model.unknown((*names, "no such thing")) == ("no such thing",)

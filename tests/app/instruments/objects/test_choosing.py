@@ -32,40 +32,49 @@ def items_of(state: AppState) -> list[int]:
     return [row.item for row in rows_of(state.scene) if row.item is not None]
 
 
-def test_a_click_chooses_what_is_under_it_and_nothing_else(state):
+def test_a_click_selects_only_the_object_under_it(state):
     row = rows_of(state.scene)[1]
-    one = picked(state, row.ids[0], more=False)
-    assert chosen(one) == (row.item,)
-    other = picked(one, rows_of(state.scene)[0].ids[0], more=False)
-    assert chosen(other) == (rows_of(state.scene)[0].item,)
+    after = picked(state, row.ids[0], more=False)
+    assert chosen(after) == (row.item,)
+    first = rows_of(state.scene)[0]
+    assert chosen(picked(after, first.ids[0], more=False)) == (first.item,)
 
 
-def test_shift_adds_and_takes_away(state):
+def test_shift_adds_and_removes(state):
     first, second = items_of(state)[:2]
     both = choose_also(choose(state, (first,)), second)
     assert chosen(both) == (first, second)
     assert chosen(choose_also(both, first)) == (second,)
+    assert picked(both, None, more=True) is both  # the background
 
 
-def test_what_is_locked_is_as_background(state):
+def test_a_locked_object_cannot_be_clicked(state):
     row = rows_of(state.scene)[0]
     locked = with_scene(state, set_field(state.scene, [row.item], "locked", True))
     assert item_at(locked.scene, row.ids[0]) is None
     assert chosen(picked(locked, row.ids[0], more=False)) == ()
 
 
-def test_walking_goes_round_in_the_order_of_the_list_both_ways(state):
-    items, seen = items_of(state), []
+@pytest.mark.parametrize("field", ["locked", "hidden"])
+def test_the_selection_skips_locked_and_hidden_objects(state, field):
+    first, second = items_of(state)[:2]
+    changed = with_scene(state, set_field(state.scene, [first], field, True))
+    assert chosen(walked(changed, 1)) == (second,)
+
+
+def test_the_selection_goes_round_the_list_both_ways(state):
+    items, visited = items_of(state), []
     assert chosen(state) == ()
     assert chosen(walked(state, -1)) == (items[-1],)
     for _ in range(len(items) + 1):
         state = walked(state, 1)
-        seen += chosen(state)
-    assert seen == [*items, items[0]]
+        visited += chosen(state)
+    assert visited == [*items, items[0]]
     assert chosen(walked(state, -1)) == (items[-1],)
+    assert chosen(walked(choose(state, items[:2]), 1)) == (items[2],)
 
 
-def test_what_is_deleted_is_no_longer_chosen_and_is_again_after_undo(state):
+def test_a_deleted_object_is_deselected_until_undo(state):
     items = items_of(state)
     both = choose(state, items[:2])
     history = History(both).change(with_scene(both, objects.delete(both.scene, [items[0]])))
@@ -73,11 +82,11 @@ def test_what_is_deleted_is_no_longer_chosen_and_is_again_after_undo(state):
     assert chosen(history.undo().present) == tuple(items[:2])
 
 
-def test_a_scene_made_in_python_has_nothing_to_choose():
+def test_a_scene_made_in_python_has_no_selection():
     scene = crowd()
     assert any(isinstance(entry.shape, Mesh) for entry in scene.objects)
     state = with_options(AppState.for_scene(scene), objects={"chosen": (0, 1)})
     assert chosen(state) == ()
     assert item_at(scene, 0) is None
     assert chosen(walked(state, 1)) == ()
-    assert [row.item for row in rows_of(scene)] == [None] * len(rows_of(scene))
+    assert {row.item for row in rows_of(scene)} == {None}

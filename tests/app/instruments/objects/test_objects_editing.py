@@ -1,4 +1,4 @@
-"""Edits of a scene: each takes a state and returns another."""
+"""Edits of a scene, as functions from a state to another."""
 
 from __future__ import annotations
 
@@ -32,16 +32,17 @@ def items_of(state: AppState) -> list[int]:
 
 @pytest.mark.parametrize("name", SCENE_NAMES)
 @pytest.mark.parametrize("kind", ["sphere", "box", "point"])
-def test_what_is_added_is_in_the_picture(name, kind):
-    """As large as they allow: the scene is not swallowed, nothing is out of the picture."""
+def test_an_added_object_is_in_the_picture(name, kind):
+    """Its size suits the scene's: from 2 to 50 %."""
     state = AppState.for_scene(load_scene(name))
     focus = scene_focus(state.scene)
     after = editing.added(state, kind, focus)
     low, high = bounds_of(after.scene, chosen(after))
     corners = np.array(list(product(*zip(low, high, strict=True))))
-    seen = after.camera.project(corners, (1, 1))
-    assert (seen.parameter > 0).all()
-    assert (np.abs([seen.row, seen.column]) < 0.5).all(), (seen.row, seen.column)
+    row, column, parameter = after.camera.project(corners, (1, 1))
+    assert (parameter > 0).all()
+    assert (np.abs([row, column]) < 0.5).all(), (row, column)
+    assert (row.mean() < -0.3) == (kind == "point")  # lights are above
     if focus.framed.size and kind != "point":
         assert 0.02 < np.ptp(corners, axis=0).max() / np.ptp(focus.framed, axis=0).max() < 0.5
 
@@ -52,7 +53,7 @@ def test_an_object_can_be_added_to_an_empty_scene():
     assert len(after.scene.objects) == 1
 
 
-def test_what_is_locked_is_not_deleted(state):
+def test_a_locked_object_is_not_deleted(state):
     first, second = items_of(state)[:2]
     scene = set_field(state.scene, [first], "locked", True)
     state = choose(editing.with_scene(state, scene), (first, second))
@@ -64,12 +65,12 @@ def test_what_is_locked_is_not_deleted(state):
     assert editing.deleted(only) is only
 
 
-def test_deleting_nothing_and_duplicating_nothing_are_no_steps(state):
+def test_deleting_or_duplicating_nothing_changes_nothing(state):
     assert editing.deleted(state) is state
     assert editing.duplicated(state, scene_focus(state.scene)) is state
 
 
-def test_copies_stand_beside_and_are_chosen(state):
+def test_a_copy_stands_to_the_right_and_is_selected(state):
     item = items_of(state)[0]
     after = editing.duplicated(choose(state, (item,)), scene_focus(state.scene))
     (copy,) = chosen(after)
@@ -97,19 +98,19 @@ def test_a_list_is_scrolled_by_as_little_as_a_line_needs(line, scrolled, after):
 
 @pytest.mark.parametrize("is_light", [False, True])
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_a_new_thing_has_its_place_in_the_picture_and_a_size_by_scene_and_view(
-    is_light, projection
-):
+def test_a_new_object_has_its_place_in_the_picture_and_a_suitable_size(is_light, projection):
     state = AppState.for_scene(load_scene("still-life"))
     focus, camera = scene_focus(state.scene), state.camera
     if projection == "parallel":
         camera = switched_projection(camera, focus.center)
     middle = float(camera.project(focus.center, (1, 1)).parameter)
     found = place_for(focus, camera, is_light)
-    seen = camera.project(found.at, (1, 1))
-    assert (seen.row, seen.column) == pytest.approx((-0.35, 0.2) if is_light else (0, 0), abs=1e-9)
+    pixel = camera.project(found.at, (1, 1))
+    assert (pixel.row, pixel.column) == pytest.approx(
+        (-0.35, 0.2) if is_light else (0, 0), abs=1e-9
+    )
     t = middle if is_light else 0.6 * middle
-    assert seen.parameter == pytest.approx(t)
+    assert pixel.parameter == pytest.approx(t)
     bottom, top = camera.viewport[2:]
     high = 0.3 * (top - bottom) * np.linalg.norm(camera.v) * (1 if camera.is_parallel else t)
     assert found.size == pytest.approx(high)

@@ -1,4 +1,4 @@
-"""Outlines against the definition: what separates what is seen of a surface from what is not."""
+"""Outlines against their definition: the edges between visible and hidden surfaces."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ CAMERAS = (
 
 
 def sheet(rng: np.random.Generator, turned: float, shared: bool = True) -> Mesh:
-    """A bumpy grid of triangles. turned: the part of them that is wound the other way. shared:
-    whether neighbours share vertices, else only places."""
+    """Return a bumpy grid of triangles. turned: the share that is wound the other way. shared: True
+    if neighbours share vertices, not only positions."""
     count = 9
     x, z = np.meshgrid(np.linspace(-1, 1, count), np.linspace(-1, 1, count))
     y = rng.normal(scale=0.3, size=x.shape)
@@ -51,9 +51,8 @@ def wound(
 
 
 def by_definition(mesh: Mesh, camera: Camera) -> tuple[set, set]:
-    """Asked of each edge by itself, in the world: its triangles' third corners lie on sides of the
-    plane through the edge and the eye. Gives the borders; and where all are on the
-    same side, which is a silhouette however the triangles are wound."""
+    """Return the borders, and the edges whose triangles' third corners are all on one side of the
+    plane through the edge and the eye, however the triangles are wound."""
     world = mesh.vertices.astype(float) @ mesh.transform[:3, :3].T + mesh.transform[:3, 3]
     sides = defaultdict(list)
     for face in mesh.faces:
@@ -92,11 +91,11 @@ def test_a_surface_s_outline_is_by_definition_however_it_is_wound(camera, turned
     for _ in range(5):
         mesh = sheet(rng, turned, shared)
         borders, turning = by_definition(mesh, camera)
-        assert turning - borders  # it does fold
+        assert turning - borders  # the surface folds
         assert drawn(mesh, camera) == borders | turning
 
 
-def test_what_is_flat_or_without_area_is_no_trouble():
+def test_flat_and_degenerate_triangles_have_a_finite_outline():
     places = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [0, 0, 0]], np.float32)
     faces = np.array([[0, 1, 2], [0, 1, 3], [0, 4, 3], [1, 1, 1]], np.int32)
     for camera in CAMERAS:
@@ -105,7 +104,7 @@ def test_what_is_flat_or_without_area_is_no_trouble():
         assert len(segments)
 
 
-def test_a_large_mesh_has_its_box():
+def test_the_outline_of_a_large_mesh_is_its_box():
     mesh = sheet(np.random.default_rng(3), 0.0)
     segments, _ = outline_of(SceneObject(mesh, Material()), CAMERAS[0], len(mesh.faces) - 1)
     assert segments.shape == (12, 2, 3)
@@ -126,14 +125,15 @@ def test_a_sphere_s_ring_is_where_rays_graze_it(camera):
     assert np.allclose(np.sum(normal * way, axis=1), 0, atol=1e-5)
 
 
-def test_many_objects_have_their_boxes():
+def test_the_outlines_of_many_objects_are_their_boxes():
     entries = [SceneObject(box(), Material())] * (silhouette.MOST_EXACT + 1)
-    assert all(len(one.segments) == 12 for one in outlines_of(entries, CAMERAS[0]))
-    assert all(len(one.segments) < 12 for one in outlines_of(entries[1:], CAMERAS[0]))
+    for number, edges in ((len(entries), 12), (silhouette.MOST_EXACT, 6)):
+        outlines = outlines_of(entries[:number], CAMERAS[0])
+        assert [len(outline.segments) for outline in outlines] == [edges] * number
 
 
 @pytest.mark.parametrize("height", [1.2, 9.0])
-def test_on_the_screen_an_outline_has_nothing_of_its_object_on_one_side(height):
+def test_on_the_screen_one_side_of_an_outline_is_free(height):
     torus = trimesh.creation.torus(1.0, 0.5)
     mesh = Mesh(np.float32(torus.vertices), np.int32(torus.faces))
     camera = Camera.look_at((0, height, 3), (0, 0, 0), fov_y_deg=50)
@@ -163,13 +163,13 @@ def determinant(one: np.ndarray, other: np.ndarray) -> np.ndarray:
     return one[..., 0] * other[..., 1] - one[..., 1] * other[..., 0]
 
 
-def test_an_outline_s_piece_is_outer_where_a_pixel_beside_it_is_covered_by_nothing():
-    """Compare with two overlapping triangles at odd places, partly beyond the image."""
+def test_a_piece_is_outer_if_a_pixel_next_to_it_is_free():
+    """Compare with two overlapping random triangles, partly beyond the image."""
     rng, size = np.random.default_rng(4), (40, 30)
     for _ in range(20):
         corners = rng.uniform(-15, 45, (2, 3, 2))
         side = determinant(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        corners[side < 0] = corners[side < 0, ::-1]  # both the same way round
+        corners[side < 0] = corners[side < 0, ::-1]  # both turn the same way
         lines = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2, 2)
         pieces = outer(lines, np.zeros(6), size)  # all
         way = pieces[:, 1] - pieces[:, 0]
@@ -181,6 +181,11 @@ def test_an_outline_s_piece_is_outer_where_a_pixel_beside_it_is_covered_by_nothi
         edges = np.roll(corners, -1, axis=1) - corners
         inside = (determinant(edges, to) > 0).all(axis=-1).any(axis=-1)
         assert np.array_equal(outer(lines, np.ones(6), size), pieces[~inside.all(axis=0)])
+
+
+def test_an_outline_that_is_partly_behind_the_eye_is_drawn_whole():
+    lines = np.array([[(10, 0), (10, 30)], [(20, 0), (20, 30)]], float)
+    assert np.array_equal(*(outer(lines, np.full(2, layers), (40, 30)) for layers in (0, 1)))
 
 
 def test_a_sphere_has_no_outline_from_inside():

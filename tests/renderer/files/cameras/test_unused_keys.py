@@ -1,4 +1,4 @@
-"""Keys that a reader does not use are named; those of the family's programs are read."""
+"""Keys that a reader does not use are named; poses and lenses in related formats are read."""
 
 from __future__ import annotations
 
@@ -45,14 +45,14 @@ GLTF: dict[str, Any] = {
          "cameras[1] is not used: no node of the scene holds it"),
     ],
 )  # fmt: skip
-def test_keys_that_are_not_used_are_named(table: dict[str, Any], note: str) -> None:
+def test_unused_keys_are_named(table: dict[str, Any], note: str) -> None:
     found = pasted(json.dumps(table))
     assert found.notes == (note,)
     assert note in found.taken
 
 
 @pytest.mark.parametrize("table", [OPENCV, NERF, OPENGL, GLTF])
-def test_a_file_that_is_used_whole_costs_no_note(table: dict[str, Any]) -> None:
+def test_a_file_without_unused_keys_has_no_note(table: dict[str, Any]) -> None:
     assert not pasted(json.dumps(table)).notes
 
 
@@ -88,22 +88,13 @@ def read(text: str) -> CameraSet:
 EYES = [(1, 2, 3), (1, 4, 3)]
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        KALIBR,
-        TABLES,
-    ],
-    ids=["kalibr", "tables"],
-)
+@pytest.mark.parametrize("text", [KALIBR, TABLES], ids=["kalibr", "tables"])
 def test_poses_of_two_cameras_are_read(text: str) -> None:
     """The camera is turned by 90 degrees about z, at (1, 2, 3); its pair is 2 to the right."""
     found = read(text)
-    assert [one.camera.eye for one in found.cameras] == [pytest.approx(e) for e in EYES]
-    for one in found.cameras:
-        assert one.camera.u == pytest.approx((0, 1, 0)) and one.camera.w == pytest.approx(
-            (0, 0, -1)
-        )
+    assert [posed.camera.eye for posed in found.cameras] == [pytest.approx(eye) for eye in EYES]
+    for camera in (posed.camera for posed in found.cameras):
+        assert camera.u == pytest.approx((0, 1, 0)) and camera.w == pytest.approx((0, 0, -1))
 
 
 def test_a_pose_on_a_robot_is_named() -> None:
@@ -121,11 +112,11 @@ def test_a_pose_on_a_robot_is_named() -> None:
         "<K>500 500 320 240</K></cam></opencv_storage>",
     ],
 )
-def test_a_model_of_a_lens_is_read_in_any_notation(text: str) -> None:
+def test_a_lens_model_is_read_in_any_notation(text: str) -> None:
     lens = pasted(text).cameras[0].camera.lens
     assert lens is not None and lens.model == "fisheye"
 
 
-def test_another_document_of_yaml_is_an_error() -> None:
+def test_two_yaml_documents_are_refused() -> None:
     with pytest.raises(LucidaError, match="holds 2 documents"):
         read(f"{EUROC}\n---\n{EUROC}")
