@@ -37,13 +37,14 @@ def axe_script() -> str:
 class Page:
     """An open page. at: the end of its address.
 
-    problems: errors, console messages, and requests that left.
+    problems: errors, console messages, dialogs, and requests that left.
     """
 
     def __init__(self, browser: Any, file: Path, at: str = "", **settings: Any) -> None:
         self.problems: list[str] = []
         self.tab = browser.new_page(**settings)
         self.tab.on("console", self._hear)
+        self.tab.on("dialog", self._dismiss)
         self.tab.on("pageerror", lambda error: self.problems.append(str(error)))
         self.tab.on("request", lambda request: self._note(request.url))
         self.tab.goto(file.as_uri() + at)
@@ -51,6 +52,10 @@ class Page:
     def _hear(self, message: Any) -> None:
         if "GL Driver Message" not in message.text:  # software WebGL is slow, and says so
             self.problems.append(message.text)
+
+    def _dismiss(self, dialog: Any) -> None:
+        self.problems.append(dialog.message)
+        dialog.dismiss()
 
     def _note(self, url: str) -> None:
         if not url.startswith(("file:", "blob:", "data:")):

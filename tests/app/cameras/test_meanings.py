@@ -56,7 +56,7 @@ def test_one_meaning_is_the_camera_itself(matrix, words, camera, is_transposed) 
     rows = matrix.T if is_transposed else matrix
     found = meanings(matrix_in(str(rows.tolist())), NOW, (0, 0, 0))
     named = [meaning for meaning in found if words in meaning.words]
-    (meaning,) = (one for one in named if ("transposed" in one.words) == is_transposed)
+    (meaning,) = (each for each in named if ("transposed" in each.words) == is_transposed)
     np.testing.assert_allclose(pixels(meaning.view.camera), pixels(camera), atol=1e-6)
     best = found[0].view.camera
     assert np.asarray(best.w) @ best.eye > 0  # it looks at the scene

@@ -129,9 +129,10 @@ def test_who_cannot_run_a_program(root: Path, capsys: pytest.CaptureFixture[str]
     path.write_text(RIGHT, "utf-8")
     words = ["check", str(path), "--task", "basis", "--as"]
     with subprocess.Popen(["sleep", "1000"], user=USER) as sleeping:
-        assert main([*words, USER]) == 2
-        assert f"{USER} has processes already; make a user" in capsys.readouterr().err
+        status = main([*words, USER])
         sleeping.kill()
+    assert status == 2
+    assert f"{USER} has processes already; make a user" in capsys.readouterr().err
     for user in ("root", "no-such-user"):
         assert main([*words, user]) == 2
         assert capsys.readouterr().err.startswith("lucida: --as: ")

@@ -48,6 +48,11 @@ def test_fitted_images_are_seen_whole_beside_their_rulers(size, pane, rulers):
         )
 
 
+@pytest.mark.parametrize(("pane", "wanted"), [((120, 60), 1), ((80, 120), 0.8), ((120, 40), 0.8)])
+def test_images_of_the_windows_size_are_shown_one_to_one_where_they_have_room(pane, wanted):
+    assert place(ImageOptions(), (100, 50), pane).magnification == wanted
+
+
 def test_rulers_stand_where_pixels_have_lines_between_them():
     """By hand: an image of 16 x 9 in 480 x 400, with rulers of 30 and 20."""
     at = placed((16, 9), (480, 400), (30, 20))

@@ -11,7 +11,7 @@ import pytest
 from waiting import wait_for
 
 from lucida.app.images.ray_pictures import RayPictures
-from lucida.app.images.scene_tracer import UnwantedError
+from lucida.app.images.scene_tracer import UnwantedError, of_scene
 from lucida.renderer.scene.model import Scene, SceneObject, Sphere
 from lucida.renderer.system.errors import LucidaError
 
@@ -103,6 +103,13 @@ def test_the_newest_wins_and_the_last_stands_in(pictures):
     go.set()
     wait_for(lambda: pictures.follow(3, OTHER, asked, along) == "newest")
     assert not never
+
+
+def test_a_tracer_of_another_scene_is_not_asked():
+    asked: list[int] = []
+    with pytest.raises(UnwantedError):
+        of_scene(Hitless(OTHER), SCENE, lambda: asked.append(1))
+    assert not asked
 
 
 def test_a_picture_of_another_scene_does_not_stand_in(pictures):

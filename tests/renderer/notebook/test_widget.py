@@ -2,6 +2,7 @@
 
 import io
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from PIL import Image
 from lucida import Camera, Lens, LucidaError, load_scene, picture
 from lucida.renderer.notebook import explore
 from lucida.renderer.notebook.sliders import is_level, sliders_of, with_number
+from lucida.renderer.notebook.widget import PUSH_S
 from lucida.renderer.scene.focus import Focus
 
 SIZE = (80, 60)
@@ -113,16 +115,19 @@ def test_the_camera_is_a_traitlet_in_both_directions(browser):
     assert widget.camera == seen[-1]
 
 
-def test_a_cell_that_moves_the_camera_sends_few_images(browser):
+def test_a_cell_that_moves_the_camera_sends_few_images(browser, monkeypatch):
     """None before somebody looks; then at most as many as can be seen."""
-    widget = browser.widget
+    widget, now_s = browser.widget, 9.0
+    clock = SimpleNamespace(monotonic=lambda: now_s)
+    monkeypatch.setattr("lucida.renderer.notebook.widget.time", clock)
     widget.camera = Camera(eye=(0, 1, 5))
     assert not browser.sent
     browser.asks()
-    for k in range(200):
-        widget.camera = Camera(eye=(0, 1, 6 + k / 100))
-    assert 1 < len(browser.sent) < 100
-    assert (browser.asks()["answer"], widget.camera.eye[2]) == (len(browser.sent) - 1, 7.99)
+    count = len(browser.sent)
+    for now_s in np.arange(10.0, 11.0, PUSH_S / 5):
+        widget.camera = Camera(eye=(0, 1, now_s))
+    assert 20 <= len(browser.sent) - count <= 25
+    assert (browser.asks()["answer"], widget.camera.eye[2]) == (len(browser.sent) - 1, now_s)
 
 
 CAMERAS = {

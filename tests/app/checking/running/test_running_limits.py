@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import os
-import signal
 import subprocess
 import sys
 
@@ -164,6 +162,8 @@ def test_it_ends_with_lucida_however_that_ends(tmp_path):
         "FileStudent(sys.argv[1], Limits(1e6)).call([Call('f', ())])"
     )
     with subprocess.Popen([sys.executable, "-c", run, str(path)]) as lucida:
-        wait_for(lambda: begun.exists() and begun.read_text())
-        os.kill(lucida.pid, signal.SIGKILL)
+        try:
+            wait_for(lambda: begun.exists() and begun.read_text())
+        finally:
+            lucida.kill()
     wait_for(lambda: not is_running(int(begun.read_text())))

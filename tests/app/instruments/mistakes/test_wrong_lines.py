@@ -95,7 +95,7 @@ def test_at_most_two_mistakes_are_on_one_per_line(program) -> None:
     assert once.name == "rows count upwards"
     first, second = model.named(program, ("columns count leftwards", "rows count upwards"))
     assert model.without_line(program, (first.name, second.name), "x") == (second.name,)
-    third = next(one for one in program.mistakes if not one.keys & {"x", "y"})
+    third = next(mistake for mistake in program.mistakes if not mistake.keys & {"x", "y"})
     names = model.switched(program, (first.name, second.name), third.name)
     assert names == (second.name, third.name)  # the last one stays
 
@@ -103,9 +103,9 @@ def test_at_most_two_mistakes_are_on_one_per_line(program) -> None:
 @pytest.mark.parametrize("program", PROGRAMS)
 def test_a_lines_common_mistakes_come_first(program) -> None:
     for line in program.lines:
-        found = model.of_line(program, line.key)
-        assert set(found) == {one for one in program.mistakes if line.key in one.keys}
-        order = [one.is_common for one in found]
+        found = model.of_line(replace(program, mistakes=program.mistakes[::-1]), line.key)
+        assert {*found} == {mistake for mistake in program.mistakes if line.key in mistake.keys}
+        order = [mistake.is_common for mistake in found]
         assert order[0] and order == sorted(order, reverse=True)
 
 

@@ -45,6 +45,7 @@ def test_shift_adds_and_removes(state):
     both = choose_also(choose(state, (first,)), second)
     assert chosen(both) == (first, second)
     assert chosen(choose_also(both, first)) == (second,)
+    assert picked(both, None, more=True) is both  # the background
 
 
 def test_a_locked_object_cannot_be_clicked(state):
@@ -52,6 +53,13 @@ def test_a_locked_object_cannot_be_clicked(state):
     locked = with_scene(state, set_field(state.scene, [row.item], "locked", True))
     assert item_at(locked.scene, row.ids[0]) is None
     assert chosen(picked(locked, row.ids[0], more=False)) == ()
+
+
+@pytest.mark.parametrize("field", ["locked", "hidden"])
+def test_the_selection_skips_locked_and_hidden_objects(state, field):
+    first, second = items_of(state)[:2]
+    changed = with_scene(state, set_field(state.scene, [first], field, True))
+    assert chosen(walked(changed, 1)) == (second,)
 
 
 def test_the_selection_goes_round_the_list_both_ways(state):
@@ -63,6 +71,7 @@ def test_the_selection_goes_round_the_list_both_ways(state):
         visited += chosen(state)
     assert visited == [*items, items[0]]
     assert chosen(walked(state, -1)) == (items[-1],)
+    assert chosen(walked(choose(state, items[:2]), 1)) == (items[2],)
 
 
 def test_a_deleted_object_is_deselected_until_undo(state):

@@ -42,6 +42,7 @@ def test_an_added_object_is_in_the_picture(name, kind):
     row, column, parameter = after.camera.project(corners, (1, 1))
     assert (parameter > 0).all()
     assert (np.abs([row, column]) < 0.5).all(), (row, column)
+    assert (row.mean() < -0.3) == (kind == "point")  # lights are above
     if focus.framed.size and kind != "point":
         assert 0.02 < np.ptp(corners, axis=0).max() / np.ptp(focus.framed, axis=0).max() < 0.5
 

@@ -59,10 +59,10 @@ def by_definition(mesh: Mesh, camera: Camera) -> tuple[set, set]:
         for k in range(3):
             ends = [tuple(mesh.vertices[face[(k + n) % 3]].tolist()) for n in range(3)]
             start, end, third = (world[face[(k + n) % 3]] for n in range(3))
-            way = camera.w if camera.is_parallel else np.asarray(camera.eye) - start
+            toward_eye = camera.w if camera.is_parallel else np.asarray(camera.eye) - start
             if ends[0] > ends[1]:
                 start, end = end, start
-            normal = np.cross(end - start, way)
+            normal = np.cross(end - start, toward_eye)
             sides[tuple(sorted(ends[:2]))].append(bool(normal @ (third - start) > 0))
     borders = {edge for edge, found in sides.items() if len(found) == 1}
     turning = {edge for edge, found in sides.items() if len(set(found)) == 1}
@@ -121,8 +121,8 @@ def test_a_sphere_s_ring_is_where_rays_graze_it(camera):
     points = segments.reshape(-1, 3)
     normal = points - ball.center
     assert np.allclose(np.linalg.norm(normal, axis=1), 0.8, atol=1e-6)
-    way = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - points
-    assert np.allclose(np.sum(normal * way, axis=1), 0, atol=1e-5)
+    toward_eye = np.asarray(camera.w) if camera.is_parallel else np.asarray(camera.eye) - points
+    assert np.allclose(np.sum(normal * toward_eye, axis=1), 0, atol=1e-5)
 
 
 def test_the_outlines_of_many_objects_are_their_boxes():
@@ -150,9 +150,9 @@ def test_on_the_screen_one_side_of_an_outline_is_free(height):
 
 def covered(pieces: np.ndarray, triangles: np.ndarray, aside: float) -> np.ndarray:
     """Return True for pieces (n, 2, 2) next to whose middle is a triangle (m, 3, 2)."""
-    way = pieces[:, 1] - pieces[:, 0]
-    way /= np.linalg.norm(way, axis=1, keepdims=True)
-    spots = pieces.mean(axis=1) + aside * np.stack([-way[:, 1], way[:, 0]], axis=1)
+    along = pieces[:, 1] - pieces[:, 0]
+    along /= np.linalg.norm(along, axis=1, keepdims=True)
+    spots = pieces.mean(axis=1) + aside * np.stack([-along[:, 1], along[:, 0]], axis=1)
     start, side = triangles, np.roll(triangles, -1, axis=1) - triangles
     to = spots[:, None, None] - start
     signs = determinant(side, to)
@@ -169,18 +169,23 @@ def test_a_piece_is_outer_if_a_pixel_next_to_it_is_free():
     for _ in range(20):
         corners = rng.uniform(-15, 45, (2, 3, 2))
         side = determinant(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-        corners[side < 0] = corners[side < 0, ::-1]  # both turn the same way
+        corners[side < 0] = corners[side < 0, ::-1]  # both wound alike
         lines = np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2, 2)
         pieces = outer(lines, np.zeros(6), size)  # all
-        way = pieces[:, 1] - pieces[:, 0]
-        aside = silhouette.ASIDE_PX * way[:, ::-1] * (-1, 1)
-        aside /= np.linalg.norm(way, axis=1, keepdims=True)
+        along = pieces[:, 1] - pieces[:, 0]
+        aside = silhouette.ASIDE_PX * along[:, ::-1] * (-1, 1)
+        aside /= np.linalg.norm(along, axis=1, keepdims=True)
         spots = pieces.mean(axis=1) + np.stack([aside, -aside])
         pixels = np.clip(spots, 0, np.subtract(size, 1)).astype(int) + 0.5
         to = pixels[:, :, None, None] - corners
         edges = np.roll(corners, -1, axis=1) - corners
         inside = (determinant(edges, to) > 0).all(axis=-1).any(axis=-1)
         assert np.array_equal(outer(lines, np.ones(6), size), pieces[~inside.all(axis=0)])
+
+
+def test_an_outline_that_is_partly_behind_the_eye_is_drawn_whole():
+    lines = np.array([[(10, 0), (10, 30)], [(20, 0), (20, 30)]], float)
+    assert np.array_equal(*(outer(lines, np.full(2, layers), (40, 30)) for layers in (0, 1)))
 
 
 def test_a_sphere_has_no_outline_from_inside():

@@ -53,9 +53,9 @@ def test_the_whole_formula_is_the_viewing_ray_head_to_tail(camera, pixel) -> Non
 
 
 @given(cameras(), pixels, positions, positions)
-def test_a_growing_construction_never_shrinks(camera, pixel, one, other) -> None:
+def test_a_growing_construction_never_shrinks(camera, pixel, early, late) -> None:
     """No term gets shorter, and none begins before the previous one is complete."""
-    first, last = sorted((one, other))
+    first, last = sorted((early, late))
     before, after = (terms_at(camera, pixel, position) for position in (first, last))
     for name in ("w", "u", "v"):
         lengths = [
@@ -114,7 +114,7 @@ def test_the_ray_comes_last_and_nothing_is_missing_at_the_end() -> None:
 
 @pytest.mark.parametrize("title", ["Any camera", "Parallel: the pixel moves the origin"])
 def test_each_term_is_in_the_formulas_of_its_step(title) -> None:
-    step = [one for one in first_lecture().builds if one.title == title][-1]
+    step = [build for build in first_lecture().builds if build.title == title][-1]
     assert step.changes["outside"]["formula"] == END
     for stage in ("w", "u", "v", "ray"):
         lit = [lit_in(latex, stage) for latex in formulas(step.blocks)]

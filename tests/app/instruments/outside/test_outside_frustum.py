@@ -55,13 +55,13 @@ class TestFrustum:
         self, camera: Camera, i: int, j: int, origin: tuple[float, float, float]
     ) -> None:
         target = pixel_corners(camera, (i, j), SIZE).mean(axis=0)
-        way = target - np.asarray(origin)
+        toward = target - np.asarray(origin)
         corners = plane_corners(camera)
         normal = np.cross(corners[1] - corners[0], corners[3] - corners[0])
-        steep = abs(normal @ way) / (np.linalg.norm(normal) * max(np.linalg.norm(way), 1e-9))
+        steep = abs(normal @ toward) / (np.linalg.norm(normal) * max(np.linalg.norm(toward), 1e-9))
         assume(steep > 0.05)
-        assert pixel_seen(camera, SIZE, np.asarray(origin), way) == (i, j)
-        assert pixel_seen(camera, SIZE, np.asarray(origin), -way) is None
+        assert pixel_seen(camera, SIZE, np.asarray(origin), toward) == (i, j)
+        assert pixel_seen(camera, SIZE, np.asarray(origin), -toward) is None
 
     def test_no_pixel_beside_the_plane_nor_along_it(self) -> None:
         camera = Camera.canonical()
@@ -115,19 +115,19 @@ class TestOutsideCamera:
     ) -> None:
         """Above a camera that looks straight down, behind is along x."""
         x, z = level
-        way = np.array([1.25 * x + 0.75 * z, 0.5, 1.25 * z - 0.75 * x])
+        toward = np.array([1.25 * x + 0.75 * z, 0.5, 1.25 * z - 0.75 * x])
         found = looked_from(np.array([0.0, 1.0, 0.0]), np.array(back))
-        assert np.allclose(found, way / np.linalg.norm(way))
+        assert np.allclose(found, toward / np.linalg.norm(toward))
 
     def test_it_is_as_near_as_possible(self) -> None:
         points = np.array([[x, y, z] for x in (-1, 1) for y in (-2, 2) for z in (-3, 3)], float)
-        for way in ((1.0, 0, 0), (0, 1.0, 0), (0, 0, -1.0), (0.6, 0, 0.8)):
-            camera = framed(points, np.array(way), 1.5)
-            assert np.allclose(camera.w, way)
+        for toward in ((1.0, 0, 0), (0, 1.0, 0), (0, 0, -1.0), (0.6, 0, 0.8)):
+            camera = framed(points, np.array(toward), 1.5)
+            assert np.allclose(camera.w, toward)
             row, column, _ = camera.project(points, (1000, 1000))
             extent = max(np.ptp(row), np.ptp(column))
             assert 850 < extent < 1000
-            above = (0, 0, -1) if abs(way[1]) == 1 else (0, 1, 0)  # y is straight on
+            above = (0, 0, -1) if abs(toward[1]) == 1 else (0, 1, 0)  # y is straight on
             assert np.dot(camera.v, above) == pytest.approx(1)
 
     def test_it_is_finite_without_finite_points(self) -> None:

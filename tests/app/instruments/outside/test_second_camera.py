@@ -43,10 +43,9 @@ def test_a_perspective_camera_s_edges_leave_its_eye() -> None:
     items = drawn(*corners())
     (edges,) = named(items, "second edges")
     assert np.allclose(edges.segments[:, 0], CAMERA.eye)
-    lengths = np.linalg.norm(edges.segments[:, 1] - edges.segments[:, 0], axis=1)
-    assert lengths.mean() == pytest.approx(REACH)
-    ways = edges.segments[:, 1] - edges.segments[:, 0]
-    assert (ways @ np.asarray(CAMERA.w) < 0).all()  # forwards
+    rays = edges.segments[:, 1] - edges.segments[:, 0]
+    assert np.linalg.norm(rays, axis=1).mean() == pytest.approx(REACH)
+    assert (rays @ np.asarray(CAMERA.w) < 0).all()  # forwards
     (eye,), (label,) = named(items, "second eye"), named(items, "second name")
     assert isinstance(eye, Dot) and np.allclose(eye.point, CAMERA.eye)
     assert isinstance(label, Label) and label.text == "student's"
@@ -89,7 +88,7 @@ def test_a_ray_ends_at_its_hit_or_at_the_reach() -> None:
     ray = GivenRay(np.array([1.0, 0.0, 0.0]), np.array([0.0, 0.0, -2.0]))
     for t, end, hits in ((1.5, -3.0, 1), (None, -REACH, 0), (np.inf, -REACH, 0)):
         items = second_ray(replace(ray, t=t), REACH)
-        (way,) = named(items, "second ray")
-        assert isinstance(way, Segments)
-        assert np.allclose(way.segments[0], [(1, 0, 0), (1, 0, end)])
+        (line,) = named(items, "second ray")
+        assert isinstance(line, Segments)
+        assert np.allclose(line.segments[0], [(1, 0, 0), (1, 0, end)])
         assert len(named(items, "second hit")) == hits

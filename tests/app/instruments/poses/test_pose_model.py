@@ -59,14 +59,14 @@ def test_a_parallel_camera_has_a_box() -> None:
 
 def test_strays_are_not_framed_and_points_are_shuffled() -> None:
     places = np.linspace(-1, 1, 1000)[:, None] * [1.0, 0.5, 0.25]
-    places[0], places[1] = (1e6, 0, 0), (np.nan, 0, 0)
+    places[-2], places[-1] = (1e6, 0, 0), (np.nan, 0, 0)
     poses = a_set(4, points=places)
     assert len(poses.points) == 999
-    assert poses.high[0] < 4  # the cameras are 3 away
+    assert 2.9 < poses.high[0] < 4  # the cameras are 3 away
     drawn = poses.points + poses.origin.astype(np.float32)
     first = np.sort(drawn[:100, 0])
     assert first[0] < -0.8 and first[-1] > 0.8  # the first ones sample all
-    assert np.allclose(np.sort(drawn[:, 0])[:-1], np.sort(places[2:, 0]), atol=1e-5)
+    assert np.allclose(np.sort(drawn[:, 0])[:-1], places[:-2, 0], atol=1e-5)
     assert (poses.colors == poses.colors[0, 0]).all()  # gray where the file has none
 
 
@@ -86,9 +86,9 @@ def test_a_cloud_bounds_its_frusta_and_visible_points() -> None:
     assert whole.points is poses.points
     assert bare.points is NO_POINTS[0]
     assert len(whole.lines.segments) == 4 * LINES
-    low, high = whole.around.min(axis=0) - 0.2, whole.around.max(axis=0) + 0.2
-    assert ((whole.lines.segments >= low) & (whole.lines.segments <= high)).all()
-    assert bare.around[:, 1].max() < 2
+    low, high = bare.around.min(axis=0), bare.around.max(axis=0)
+    assert ((bare.lines.segments >= low) & (bare.lines.segments <= high)).all()
+    assert high[1] < 2 < 9 < whole.around[:, 1].max()
 
 
 def test_names_leave_out_the_folder_that_all_are_in() -> None:
@@ -134,22 +134,20 @@ def test_up_is_that_of_most_images() -> None:
         for posed in turned[:3]
     ]  # lengths have no weight
     assert pose_set(Path("f"), CameraSet("f", (*ring(8)[3:], *long))).up[1] > 0.9
-    half = [*ring(8)[:4], *turned[:4]]
-    assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(half))).up, (0, 1, 0))
 
 
 @pytest.mark.parametrize("back", [(0, 0, 1), (1, 2, 0), (0, 1, 0), (0, -3, 0)])
 @pytest.mark.parametrize("up", [(0, 1, 0), (0, -1, 0), (0.6, 0.8, 0)])
 def test_a_set_is_seen_from_above(back: tuple[float, ...], up: tuple[float, ...]) -> None:
-    way = looked_from(np.array(up, float), np.array(back, float))
-    assert np.linalg.norm(way) == pytest.approx(1.0)
-    assert 0.2 < way @ up < 0.6
+    direction = looked_from(np.array(up, float), np.array(back, float))
+    assert np.linalg.norm(direction) == pytest.approx(1.0)
+    assert 0.2 < direction @ up < 0.6
 
 
 def test_a_cameras_view_loses_nothing_in_other_images() -> None:
     poses = a_set(3)
     view = poses.view(1)
-    assert view.camera == poses.cameras[1].camera
+    assert (view.camera, SIZE) == view.given == (poses.cameras[1].camera, SIZE)
     assert view.for_size(SIZE).viewport == pytest.approx(view.camera.viewport)
     wide = view.for_size((160, 60)).viewport
     assert wide[2:] == pytest.approx(view.camera.viewport[2:]) and wide[0] < view.camera.viewport[0]
@@ -178,11 +176,11 @@ def test_frusta_are_as_long_as_the_set_is_wide_and_shorter_among_many() -> None:
     assert one.length == pytest.approx(0.15 * np.linalg.norm(one.high - one.low) / 2)
 
 
-def test_few_of_the_other_opinion_do_not_change_what_is_up() -> None:
-    for down, up in ((14, -1), (13, 1)):  # of twenty: by 0.4, and by 0.3
+def test_up_is_y_without_a_clear_majority() -> None:
+    for down, up in ((14, -1), (13, 1)):  # of 20: the means are -0.4 and -0.3
         posed = [
-            replace(one, camera=replace(one.camera, v=(0.0, -1.0 if k < down else 1.0, 0.0)))
-            for k, one in enumerate(ring(20))
+            replace(entry, camera=replace(entry.camera, v=(0.0, -1.0 if k < down else 1.0, 0.0)))
+            for k, entry in enumerate(ring(20))
         ]
         assert np.allclose(pose_set(Path("f"), CameraSet("f", tuple(posed))).up, (0, up, 0))
 
