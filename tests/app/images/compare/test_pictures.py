@@ -7,7 +7,7 @@ from lucida.renderer.compare.raster_and_ray import AGREE, LABEL_COLORS, SHADING,
 
 
 def test_marked_pixels_have_their_causes_colours():
-    labels = np.zeros((7, 13), np.uint8)
+    labels = np.zeros((70, 130), np.uint8)
     labels[2, 3], labels[4, 5], labels[6, 12] = 1, SHADING, UNEXPLAINED
     picture = marked_picture(labels, is_large=True)
     assert (picture[..., :3][labels != AGREE] == LABEL_COLORS[labels[labels != AGREE]]).all()
@@ -29,6 +29,8 @@ def test_single_pixels_are_enlarged():
     labels[500, 500] = 3
     assert (enlarged(labels) == 3).sum() == 7 * 7
     assert (enlarged(labels) == RIM).sum() == 9 * 9 - 7 * 7
+    labels[500, 501] = UNEXPLAINED
+    assert enlarged(labels)[500, 500] == 3  # a pixel's own label stays
 
 
 def test_many_marks_are_not_enlarged():

@@ -85,6 +85,9 @@ def test_transparency_is_kept(tmp_path):
     pixels[0] = (200, 100, 50, 0), (200, 100, 50, 128), (200, 100, 50, 255)
     photograph = decoded(saved(tmp_path, pixels), WHOLE)
     assert photograph.pixels[0].tolist() == pixels[0].tolist()
+    pixels[0, 0] = 0
+    keyed = saved(tmp_path, pixels[..., :3], transparency=(0, 0, 0))
+    assert decoded(keyed, (1, 1)).pixels[0, 0, 3] == 170  # two of three pixels
 
 
 def test_gray_palettes_and_16_bits_are_read(tmp_path):
