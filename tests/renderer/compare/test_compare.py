@@ -11,7 +11,9 @@ from lucida.renderer.compare.raster_and_ray import SHADING, UNEXPLAINED, compare
 from lucida.renderer.files import load_scene
 from lucida.renderer.images.frame import CHANNELS
 from lucida.renderer.scene.flat import flatten
+from lucida.renderer.scene.material import Material
 from lucida.renderer.scene.model import Checker, Mesh, Scene, SceneObject, Sphere
+from lucida.renderer.scene.texture import Texture
 from lucida.renderer.trace import Tracer
 
 
@@ -59,6 +61,20 @@ def test_an_outline_explains_pixels_within_one_128th(offset_px, explained):
     snapped = changed(exact, np.s_[:, 20], depth=2, id=0, primitive=0)
     comparison = compare_frames(flat, CAMERA, SIZE, snapped, exact)
     assert counts(comparison) == {"edge" if explained else "unexplained": 24}
+
+
+@pytest.mark.parametrize(("part", "cause"), [(0.9, "pattern"), (1.2, "unexplained")])
+def test_a_hole_explains_pixels_within_one_128th(part, cause):
+    """Its edge is where an opaque texel meets a clear one, to the left of column 20."""
+    at = CAMERA.image_point(0, 20 - part / 128, SIZE)[0] * 2
+    texture = Texture(np.array([[[9, 9, 9, 255], [9, 9, 9, 0]]], np.uint8), ("clamp", "clamp"))
+    square = wall(-2, at - 1, at + 1).shape
+    mesh = Mesh(square.vertices, square.faces, uv=[[0, 0], [1, 0], [1, 1], [0, 1]])
+    holed = SceneObject(mesh, Material(texture=texture, cutout=0.5))
+    seen = changed(image(2, 0, 0), np.s_[:, 20:], depth=3, id=1, primitive=2)
+    missed = changed(seen, np.s_[:, 20], depth=2, id=0, primitive=0)
+    comparison = compare_frames(flatten(Scene((holed, wall(-3)))), CAMERA, SIZE, missed, seen)
+    assert counts(comparison) == {cause: 24}
 
 
 def test_a_hidden_edge_explains_nothing():
