@@ -130,11 +130,11 @@ class Driver:
             self.window.lecture.leave(self.window)
         first = layout.LAYOUTS[0]
         layout.switch(first.name)
-        self.frames(2)
+        self.until(lambda: layout.current() is first)
         for view in self.stage.views.values():
             layout.window_of(view).is_visible = view.name in first.places
         layout.reset()
-        self.frames(3)
+        self.until(lambda: not layout.is_to_be_made())
 
     def resize(self, size: tuple[int, int]) -> None:
         """Resize the window, unless it has that size, and wait until it is drawn so."""
@@ -147,7 +147,8 @@ class Driver:
         """Switch to a layout of the views, unless it is there."""
         if hello_imgui.current_layout_name() != name:
             hello_imgui.switch_layout(name)
-            self.frames(5)
+            self.until(lambda: hello_imgui.current_layout_name() == name)
+            self.until(lambda: not self.window.shell._dividing)
         self.settle()
 
     def change(self, **options: Any) -> None:

@@ -50,7 +50,7 @@ def drive_the_box_saves_the_figure_that_it_shows(d):
 def drive_images_and_formulas_are_figures_too(d):
     d.change(marked=(60, 90))
     d.window.show_in("Probe", "Probe")
-    d.frames(8)
+    d.until(lambda: "Probe" in d.stage.rects and not d.window.is_rearranging)
     d.settle()
     choice = replace(_open(d).choice, size=(600, 200), ground="transparent")
     for what, least in (("pair", 0.3), ("raster", 0.15), ("probe", 0.001)):

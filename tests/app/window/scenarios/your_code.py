@@ -62,8 +62,7 @@ def opened(d, text, name="rays.py"):
 
 def drive_without_a_file_it_helps_to_begin(d):
     d.stage.show_in(YOUR_CODE, layout.LOOPS)
-    d.until(lambda: layout.current().name == layout.LOOPS)
-    d.frames(8)
+    d.until(lambda: YOUR_CODE in d.stage.rects and not d.window.is_rearranging)
     d.click(f"{WINDOW}/Write a file to begin with...")
     dialog = d.files.dialog
     if dialog.is_open:  # the window's own: there is no system's here
