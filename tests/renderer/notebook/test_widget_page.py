@@ -15,7 +15,6 @@ from lucida.renderer.notebook import explore
 
 pytestmark = pytest.mark.filterwarnings("ignore")  # Playwright's own
 SIZE = (80, 60)
-FULL = "canvas[data-factor='1']"
 PAGE = """<!doctype html><style>%(css)s</style><div id="place"></div><script type="module">
 const url = URL.createObjectURL(new Blob([%(js)s], { type: "text/javascript" }));
 const { default: widget } = await import(url);
@@ -59,7 +58,7 @@ def page(browser):
     page.widget, page.errors, page.is_busy, page.unanswered = widget, [], False, 0
     page.on("pageerror", lambda error: page.errors.append(error))
     page.set_content(PAGE % parts)
-    page.locator(FULL).wait_for()
+    shown(page, bool)
     yield page
     page.close()
     assert not page.errors
@@ -69,7 +68,7 @@ def shown(page, is_awaited):
     """Wait until the camera is the awaited one, and the canvas shows its full image."""
 
     def look():
-        data = page.locator(FULL).evaluate("canvas => canvas.toDataURL().split(',')[1]")
+        data = page.locator("canvas").evaluate("canvas => canvas.toDataURL().split(',')[1]")
         if not is_awaited(page.widget.camera):
             return False
         image = np.asarray(Image.open(io.BytesIO(base64.b64decode(data))))
