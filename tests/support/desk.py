@@ -87,9 +87,6 @@ class Desk:
         """Puts the mouse where it points at nothing: the status line's right end."""
         self.xdotool("mousemove", self.size[0] - 30, self.size[1] - 30)
 
-    def type(self, text: str) -> None:
-        self.xdotool("type", "--delay", 60, text)
-
     def picture(self) -> np.ndarray:
         """The screen, uint8 (height, width, 3)."""
         return np.asarray(ImageGrab.grab(xdisplay=self.display).convert("RGB"))

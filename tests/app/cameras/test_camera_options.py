@@ -79,7 +79,6 @@ def test_a_vector_may_begin_with_a_minus(word):
             "--distance: cannot be used together with --fov; give one of the two",
         ),
         (["--fov=180"], "--fov: 180 is not between 0 and 180; give e.g. 40"),
-        (["--fov=nan"], "--fov: nan is not between 0 and 180; give e.g. 40"),
         (["--fov=40", "--projection=parallel"], "--fov: does not apply to a parallel projection"),
     ],
 )

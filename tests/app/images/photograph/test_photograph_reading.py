@@ -14,8 +14,7 @@ from lucida.app.images.photograph.reading import (
 from lucida.renderer.system.errors import LucidaError, describe
 
 WHOLE = (1000, 1000)
-RNG = np.random.default_rng(2)
-PIXELS = RNG.integers(0, 256, (6, 8, 3), dtype=np.uint8)
+PIXELS = np.random.default_rng(2).integers(0, 256, (6, 8, 3), dtype=np.uint8)
 
 
 def saved(tmp_path, pixels, name="photo.png", **keywords):
