@@ -49,5 +49,6 @@ def views_in_turn(d: Driver, pages: Sequence[str] = PAGES) -> Iterator[str]:
                 d.change(laboratory={"page": page})
             d.frames(3)
             d.until(lambda name=name: stage.views[name].settled)
+            d.frames(3)
             yield f"{name} {page}"
     show_only(d, before)

@@ -74,6 +74,7 @@ def layouts(d):
         if one.name != layout.LECTURE:
             d.layout(one.name)
             d.until(lambda: all(view.settled for view in d.stage.shown))
+            d.frames(3)  # ImGui sizes a view by its content of the last frame
             yield one.name
 
 
