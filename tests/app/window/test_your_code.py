@@ -24,8 +24,8 @@ def step():
         if view.runs.busy or (view.seen and run.window.settled):
             print(view.runs.busy, view.runs.report, YOUR_CODE in run.window.shell.stage.rects)
             run.params.app_shall_exit = True
-    elif (folder / "hangs").exists():
-        print(*children())
+    elif (folder / "hangs").exists() and (found := list(children())):
+        print(*found)
         run.params.app_shall_exit = True
 
 def children():
