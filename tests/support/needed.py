@@ -7,11 +7,12 @@ import os
 import shutil
 import subprocess
 from collections.abc import Iterator
+from typing import NoReturn
 
 import pytest
 
 
-def absent(reason: str) -> None:
+def absent(reason: str) -> NoReturn:
     """Skip the test; where CI is set, where nothing may be absent, fail it."""
     (pytest.fail if os.environ.get("CI") else pytest.skip)(reason)
 
@@ -19,7 +20,7 @@ def absent(reason: str) -> None:
 def need(*names: str) -> str:
     """Return the path of the first of these programs that is installed."""
     found = filter(None, map(shutil.which, names))
-    return next(found, None) or absent(f"{names[0]} is not installed") or ""
+    return next(found, "") or absent(f"{names[0]} is not installed")
 
 
 @contextlib.contextmanager

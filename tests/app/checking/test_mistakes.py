@@ -104,10 +104,9 @@ def ray(name):
     return run_rays(program, ray_values(CAMERA, 1, 5, (8, 4), RayTask()), (one(program, name),))
 
 
-@pytest.mark.parametrize(
-    "words", [words for words in TASKS.values() if PIXEL & words and words != WORDS]
-)
-def test_the_right_program_uses_the_words_of_its_task(words):
+@pytest.mark.parametrize("name", [name for name in TASKS if name not in ("all", "in other words")])
+def test_the_right_program_uses_the_words_of_its_task(name):
+    words = TASKS[name]
     task = RayTask(words=frozenset(words))
     known = ray_values(CAMERA, 1, 5, (8, 4), task) | {"target": (1, 2, 0), "up": (0, 2, 0)}
     origin, direction = run_rays(ray_program(task), {word: known[word] for word in words})

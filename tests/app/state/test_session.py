@@ -154,7 +154,7 @@ def test_a_newer_session_is_refused_as_such(state):
 
 
 def test_removed_options_are_left_out_and_replaced_values_have_their_successors():
-    """Successors that are no defaults."""
+    """The successors differ from the defaults, which a lost value would become."""
     old = {"notation": "code", "laboratory": {"zoom": 2, "page": "heights"}, "pixel": [1, 2]}
     kept, lines = without_removed(old)
     assert kept == {"laboratory": {"page": "function"}, "pixel": [1, 2]}
