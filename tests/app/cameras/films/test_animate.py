@@ -9,7 +9,6 @@ from itertools import pairwise
 from pathlib import Path
 
 import av
-import dask
 import numpy as np
 import psutil
 import pytest
@@ -95,7 +94,9 @@ def test_an_interrupted_film_goes_on(animate, monkeypatch):
     assert status == 0 and "4 of 5 frames are there" in out
 
 
-def test_workers_draw_the_same_even_if_one_is_killed(tmp_path):
+def test_workers_draw_the_same_even_if_one_is_killed():
+    import dask.distributed
+
     scene = load_scene("spheres")
     focus = scene_focus(scene)
     look, size = frames.Look("ray", threads=1), (32, 96)
