@@ -71,23 +71,27 @@ PAGES = ("/app/web/", "/test_widget_page.py")
 PARSED = ("/test_dead_code.py", "/test_layers.py")
 
 
+SHARED = ("from hypothesis", " cast(")
+
+
 @functools.cache
-def has_examples(path):
-    """Return whether a file's tests use Hypothesis."""
-    return "from hypothesis" in (Path(__file__).parents[1] / path).read_text("utf-8")
+def text_of(path):
+    return (Path(__file__).parents[1] / path).read_text("utf-8")
 
 
 class Scheduling(LoadScopeScheduling):
     """One process gets a file or a class whole, all pages, so that they share a browser, both files
-    that parse all modules, and all tests with examples: Hypothesis reads all modules, too."""
+    that parse all modules, all tests with examples: Hypothesis reads all modules, too; and all that
+    compile `cast`."""
 
     def _split_scope(self, nodeid):
         if any(part in nodeid for part in PAGES):
             return "pages"
         if any(part in nodeid for part in PARSED):
             return "parsed"
-        examples = has_examples(nodeid.partition("::")[0])
-        return "examples" if examples else super()._split_scope(nodeid)
+        text = text_of(nodeid.partition("::")[0])
+        found = (part for part in SHARED if part in text)
+        return next(found, None) or super()._split_scope(nodeid)
 
 
 def pytest_xdist_make_scheduler(config, log):

@@ -46,6 +46,8 @@ def _fields(text: str) -> Iterator[tuple[Path, int]]:
     counts: dict[Path, int] = {}  # of arrays of tables
     depth = 0  # of open brackets
     for number, line in enumerate(text.split("\n"), 1):
+        if not line:
+            continue
         if depth <= 0 and (header := _HEADER.fullmatch(line)):
             table = ()
             *parents, last = _keys(header[2])

@@ -5,7 +5,6 @@ These functions serve code outside the renderers that computes on arrays of rays
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable
 from typing import Any
 
@@ -118,13 +117,15 @@ def between(
     least, most = found.min(axis=0), found.max(axis=0)
     low, size = places.min(axis=0), np.ptp(places, axis=0)
     wide = (size > 1 / _LATTICE).any(axis=1)
-    for step in itertools.product(np.linspace(0, 1, _LATTICE + 1), repeat=2) if wide.any() else ():
-        place = low[wide] + size[wide] * step
+    steps = np.linspace(0, 1, _LATTICE + 1)
+    for u in steps if wide.any() else ():
+        place = low[wide] + size[wide] * [[[u, v]] for v in steps]
         # Extremes are only at the middles of texels.
         for at in (place, np.clip(np.floor(place) + 0.5, low[wide], low[wide] + size[wide])):
-            more = sample(flat, objects[wide], at)
-            least[wide] = np.minimum(least[wide], more)
-            most[wide] = np.maximum(most[wide], more)
+            more = sample(flat, np.tile(objects[wide], len(at)), at.reshape(-1, 2))
+            more = more.reshape(*at.shape[:2], -1)
+            least[wide] = np.minimum(least[wide], more.min(axis=0))
+            most[wide] = np.maximum(most[wide], more.max(axis=0))
     vast = (size > _LATTICE / 2).any(axis=1)  # any of the image's texels may be there
     for number in np.unique(objects[vast]):
         _, width, height, _ = flat.textures[number, 0].tolist()

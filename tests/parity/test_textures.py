@@ -16,7 +16,7 @@ from lucida.renderer.scene.model import Checker, Mesh, Scene, SceneObject, Spher
 from lucida.renderer.scene.sampling import between, sampled
 from lucida.renderer.scene.texture import WRAPS, Texture, packed_texels
 
-SIZE, SMALL = (96, 64), (36, 24)
+SIZE, SMALL = (96, 64), (24, 16)
 SKEWED = Camera(u=(1.1, 0.2, 0.1), v=(-0.1, 0.9, 0.2), w=(0.05, -0.1, 1.0))
 PARALLEL = Camera(viewport=(-2.1, 2.1, -1.4, 1.4), projection="parallel")
 

@@ -137,10 +137,3 @@ def test_the_installed_wheel_draws(installed, environment, tmp_path, gl_backend)
     image = np.load(tmp_path / "a.npy")
     assert image.shape == (36, 64, 3)
     assert len(np.unique(image.reshape(-1, 3), axis=0)) > 100
-
-
-def test_it_knows_its_scenes_and_version(installed, environment, tmp_path):
-    for argument, expected in (("scene", "still-life"), ("--version", __version__)):
-        end = run(installed / "lucida", argument, cwd=tmp_path, env=environment)
-        assert end.returncode == 0, end.stderr
-        assert expected in end.stdout

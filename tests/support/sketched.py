@@ -16,19 +16,21 @@ def sketched(*drawing: Any) -> float:
     A change of one number by 0.01 changes it by more than 0.0001, unless it is among very few.
     Pixels are not counted, because libraries differ in them by a unit.
     """
-    numbers = np.concatenate([np.zeros(1), *_numbers(drawing)])
+    numbers = np.array([0.0, *_numbers(drawing)])
     weights = 0.1 + np.modf(np.arange(len(numbers)) * 0.6180339887498949)[0]
     return float(np.nan_to_num(numbers, posinf=1e3, neginf=-1e3) @ weights)
 
 
-def _numbers(part: Any) -> Iterator[np.ndarray]:
-    if dataclasses.is_dataclass(part):
-        for field in dataclasses.fields(part):
-            yield from _numbers(getattr(part, field.name))
-    elif isinstance(part, str):
-        yield np.array([zlib.crc32(part.encode()) % 1000], float)
+def _numbers(part: Any) -> Iterator[float]:
+    if isinstance(part, str):
+        yield zlib.crc32(part.encode()) % 1000
     elif isinstance(part, tuple | list):
         for one in part:
             yield from _numbers(one)
-    elif part is not None and np.asarray(part).dtype != np.uint8:
-        yield np.ravel(np.asarray(part, float))
+    elif isinstance(part, np.ndarray):
+        if part.dtype != np.uint8:
+            yield from part.ravel().tolist()
+    elif dataclasses.is_dataclass(part):
+        yield from _numbers([*vars(part).values()])
+    elif part is not None:
+        yield float(part)

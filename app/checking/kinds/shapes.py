@@ -44,10 +44,10 @@ def _sphere_crossings(
     the surface, in radii.
     """
     from_center = o - center
-    squared = np.sum(d * d, axis=-1)
-    middle = -np.sum(from_center * d, axis=-1) / squared  # t of the point closest to the centre
+    squared = np.vecdot(d, d)
+    middle = -np.vecdot(from_center, d) / squared  # t of the point closest to the centre
     nearest = from_center + middle[..., None] * d
-    inside = radius**2 - np.sum(nearest * nearest, axis=-1)
+    inside = radius**2 - np.vecdot(nearest, nearest)
     half = np.sqrt(inside / squared)  # NaN outside of the outline
     at_surface = np.abs(np.linalg.norm(from_center, axis=-1) / radius - 1)
     margin = np.minimum(np.abs(inside) / radius**2, at_surface)
@@ -65,11 +65,11 @@ def _triangle_crossings(
     """
     first, second = b - a, c - a
     across = np.cross(first, second)
-    along = np.sum(d * across, axis=-1)
+    along = np.vecdot(d, across)
     away = a - o
-    t = np.sum(away * across, axis=-1) / along
-    beta = np.sum(np.cross(d, away) * -second, axis=-1) / along
-    gamma = np.sum(np.cross(d, away) * first, axis=-1) / along
+    t = np.vecdot(away, across) / along
+    turned = np.cross(d, away)
+    beta, gamma = -np.vecdot(turned, second) / along, np.vecdot(turned, first) / along
     least = np.minimum(np.minimum(1 - beta - gamma, beta), gamma)
     flat = np.abs(along) <= 1e-12 * np.linalg.norm(across) * np.linalg.norm(d, axis=-1)
     margin = np.where(flat, 1.0, np.minimum(np.abs(least), np.abs(t)))

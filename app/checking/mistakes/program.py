@@ -6,6 +6,7 @@ The lines are this project's own; a student's code is never run here.
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
@@ -115,7 +116,8 @@ class Program:
         """
         names: dict[str, Any] = FUNCTIONS | dict(known)
         with np.errstate(all="ignore"):
-            exec(_compiled(self.source(mistakes)), names)
+            for statement in re.split(r"\n(?! )", self.source(mistakes)):  # compile each once
+                exec(_compiled(statement), names)
         return tuple(names[name] for name in self.results)
 
     def pairs(self) -> Iterator[tuple[Mistake, Mistake]]:

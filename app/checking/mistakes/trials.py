@@ -18,7 +18,7 @@ from lucida.app.checking.tasks import CheckCase, CheckTask
 
 from .program import Mistakes, Program
 from .programs import case_values, known_values
-from .rays import ray_task, run_rays
+from .rays import ray_task
 
 Floats = NDArray[np.float64]
 Errors = tuple[float, float]  # of the given answers, and of the correct ones
@@ -75,16 +75,20 @@ class RayTrial:
     """Given and correct rays. The lines run for all cases at once."""
 
     def __init__(self, task: CheckTask, cases: Sequence[CheckCase], given: Sequence[Any]) -> None:
-        self._answers = np.array([given, [case.right for case in cases]], float)  # (2, N, 2, 3)
+        answers = np.array([given, [case.right for case in cases]], float)  # (2, N, 2, 3)
         made, scale, its = [], [], ray_task(task)
         for case in cases:
             assert case.camera is not None and case.pixel is not None
             made.append(case_values(case, *case.pixel, its))
             scale.append(largest_number(case.camera))
         self._scale = np.array(scale)
-        self._known = {
-            name: np.array([np.atleast_1d(one[name]) for one in made], float) for name in made[0]
-        }
+        known = {name: np.array([one[name] for one in made], float) for name in made[0]}
+        self._known = {k: one[:, None] if one.ndim == 1 else one for k, one in known.items()}
+        self._finite = np.isfinite(answers).all(axis=(-2, -1))
+        self._origins, directions = answers[..., 0, :], answers[..., 1, :]
+        with np.errstate(all="ignore"):
+            self._own = _lengths(directions)
+            self._along = directions / self._own[..., None]
 
     def errors(self, program: Program, mistakes: Mistakes) -> Errors:
         """Return the distances of the given and of the correct rays from the program's, relative to
@@ -93,22 +97,23 @@ class RayTrial:
         The error is 0 if neither is finite, because both divide by zero in the same place, as does
         a student who normalises a direction of length 0.
         """
-        origins, directions = run_rays(program, self._known, mistakes)
+        origins, directions = program.run(self._known, mistakes)
         with np.errstate(all="ignore"):
-            length = np.linalg.norm(directions, axis=-1)
-            own = np.linalg.norm(self._answers[..., 1, :], axis=-1)
-            scale = self._scale + np.linalg.norm(origins, axis=-1) + length
-            along = directions / length[..., None]
-            moved = self._answers[..., 0, :] - origins
-            turned = self._answers[..., 1, :] / own[..., None] - along
-            error = np.linalg.norm(turned, axis=-1) * length
-            error = np.where((own == 0) | (length == 0), np.maximum(own, length), error)
-            error = np.maximum(np.linalg.norm(moved, axis=-1), error) / scale
+            length = _lengths(directions)
+            turned = _lengths(self._along - directions / length[..., None]) * length
+            no_length = (self._own == 0) | (length == 0)
+            error = np.where(no_length, np.maximum(self._own, length), turned)
+            error = np.maximum(_lengths(self._origins - origins), error)
+            error /= self._scale + _lengths(origins) + length
         is_made = np.isfinite(origins).all(axis=-1) & np.isfinite(length) & (length > 0)
-        is_there = np.isfinite(self._answers).all(axis=(-2, -1)) | is_made
-        error = np.where(is_there, np.where(np.isnan(error), np.inf, error), 0.0)
+        error[np.isnan(error)] = np.inf
+        error[~(self._finite | is_made)] = 0.0
         given, right = error.max(axis=1).tolist()
         return given, right
+
+
+def _lengths(vectors: Floats) -> Floats:
+    return np.sqrt(np.vecdot(vectors, vectors))
 
 
 class ValueTrial:

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 
 
 def dot(a: ArrayLike, b: ArrayLike) -> Floats:
-    return np.sum(np.multiply(a, b), axis=-1, keepdims=True)
+    return np.asarray(np.vecdot(a, b))[..., None]
 
 
 def norm(a: ArrayLike) -> Floats:

@@ -76,8 +76,8 @@ def same(rays: NDArray[np.float64], others: NDArray[np.float64]) -> bool:
 
 @pytest.mark.parametrize("name", RAY_TASKS)
 def test_each_mistake_in_rays_is_named(name):
-    """Use four cameras together, with rays of length 1, every fourth mistake in float32. Each task
-    has its share of the mistakes."""
+    """Use four cameras together, with rays of length 1, one mistake in float32. Each task has its
+    share of the mistakes."""
     task = ray_task_of(**RAY_TASKS[name])
     program, cases = program_of(task), made_cases(2, 4, task.projection)
     right, named, unseen = right_rays(cases), 0, 0
@@ -93,7 +93,7 @@ def test_each_mistake_in_rays_is_named(name):
         length = np.linalg.norm(rays[:, 1:], axis=2, keepdims=True)
         given = rays.copy()
         given[:, 1:] /= np.where(length > 0, length, 1)
-        if named % 4 == 0:
+        if named == 4:
             given = given.astype(np.float32).astype(float)
         found = candidates(program, trials_of(task, cases, given))
         assert (mistake,) in found, mistake.name
@@ -110,7 +110,7 @@ def test_two_mistakes_at_once_are_named(projection):
     known, right = known_in(task, cases), right_rays(cases)
     pairs, exactly = list(program.pairs()), 0
     assert len(pairs) > 200
-    chosen = np.random.default_rng(5).choice(len(pairs), 4, replace=False)
+    chosen = np.random.default_rng(5).choice(len(pairs), 2, replace=False)
     for pair in (pairs[number] for number in chosen):
         rays = rays_with(program, known, pair)
         if same(rays, right):
@@ -120,16 +120,16 @@ def test_two_mistakes_at_once_are_named(projection):
         exactly += pair in found
         for others in found:
             assert same(rays, rays_with(program, known, others)), (pair, others)
-    assert exactly >= 3
+    assert exactly == 2
 
 
 @pytest.mark.parametrize("projection", ["perspective", "parallel"])
-def test_right_answers_of_400_cameras_have_no_name(projection):
+def test_right_answers_of_200_cameras_have_no_name(projection):
     """A pixel of each, computed in float32: even if they were handed over as wrong."""
     random = np.random.default_rng(7)
     task = ray_task_of(projection)
     program, cases = program_of(task), []
-    for number in range(400):
+    for number in range(200):
         camera = made_camera(random, CAMERAS[number % len(CAMERAS)], projection)
         width, height = random.integers(2, 2000, 2).tolist()
         pixel = (int(random.integers(height)), int(random.integers(width)))
@@ -138,9 +138,7 @@ def test_right_answers_of_400_cameras_have_no_name(projection):
     given = right_rays(cases)
     given[:, 1] *= length[:, None]
     given = given.astype(np.float32).astype(float)
-    for first in range(0, len(cases), 200):
-        part = slice(first, first + 200)
-        assert candidates(program, trials_of(task, cases[part], given[part])) == ()
+    assert candidates(program, trials_of(task, cases, given)) == ()
 
 
 @pytest.mark.parametrize("odd", [np.nan, np.inf, 1e300])

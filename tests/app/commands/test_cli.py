@@ -10,6 +10,7 @@ from argparse import ArgumentParser, ArgumentTypeError
 from pathlib import Path
 
 import pytest
+from launching import launch
 
 from lucida import __version__
 from lucida.app.cli import main
@@ -17,7 +18,6 @@ from lucida.app.commands import COMMANDS, arguments, render, view
 from lucida.renderer.files import BUILTIN_SCENES
 from tests.support.refusals import refused
 
-ROOT = Path(__file__).parents[3]
 NAMES = [command.NAME for command in COMMANDS]
 VIEW = """\
 [camera]
@@ -36,10 +36,6 @@ def in_an_empty_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.delenv("LUCIDA_TRACEBACK", raising=False)
     return tmp_path
-
-
-def run_python(*arguments: str, **options) -> subprocess.CompletedProcess:
-    return subprocess.run([sys.executable, *arguments], text=True, check=False, **options)
 
 
 class TestHelp:
@@ -68,11 +64,10 @@ class TestHelp:
         )
         # The project's own place, for a run without an installation.
         path = os.pathsep.join(filter(None, sys.path))
-        end = run_python(
-            "-c",
-            program,
-            *arguments,
+        end = subprocess.run(
+            [sys.executable, "-c", program, *arguments],
             capture_output=True,
+            text=True,
             env={**os.environ, "PYTHONPATH": path},
         )
         assert end.returncode == 0
@@ -224,24 +219,21 @@ class TestEnds:
         assert capsys.readouterr().err == "lucida: interrupted\n"
 
     @pytest.mark.skipif(sys.platform == "win32", reason="a reader that left is POSIX's SIGPIPE")
-    def test_a_reader_that_leaves(self):
-        reading, writing = os.pipe()
-        os.close(reading)
-        try:
-            end = run_python(
-                "-m", "lucida", "scene", stdout=writing, stderr=subprocess.PIPE, cwd=ROOT
-            )
-        finally:
-            os.close(writing)
+    def test_a_reader_that_leaves(self, tmp_path):
+        end = self.printing_to("reading, out = os.pipe(); os.close(reading)", tmp_path)
         assert end.returncode == 141
         assert not end.stderr
 
     @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="/dev/full is Linux's")
-    def test_output_that_cannot_be_written(self):
-        with open("/dev/full", "w") as full:
-            end = run_python("-m", "lucida", "scene", stdout=full, stderr=subprocess.PIPE, cwd=ROOT)
+    def test_output_that_cannot_be_written(self, tmp_path):
+        end = self.printing_to("out = os.open('/dev/full', os.O_WRONLY)", tmp_path)
         assert end.returncode == 2
         assert re.fullmatch("lucida: [^\n]*space[^\n]*\n", end.stderr)
+
+    @staticmethod
+    def printing_to(out: str, folder: Path) -> subprocess.CompletedProcess:
+        run = "sys.stdout = open(out, 'w'); runpy.run_module('lucida', run_name='__main__')"
+        return launch(["-c", f"import os, runpy, sys; {out}; {run}", "scene"], folder)
 
     def test_scenes_are_those_of_the_renderer(self, capsys):
         assert main(["scene"]) == 0

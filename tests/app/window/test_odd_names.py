@@ -133,12 +133,13 @@ def test_names_that_are_dropped_are_decoded_as_files_names_are(monkeypatch):
 @pytest.mark.parametrize("model", [NAMES[1], NAMES[-1]], indirect=True)
 def test_commands_name_it_on_any_terminal(model):
     environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-    command = [sys.executable, "-m", "lucida", "scene", model]
+    run = (
+        "import os, sys; from lucida.app.cli import main; line = ['scene', sys.argv[1]]; "
+        "main(line); os.unlink(line[1]); sys.exit(main(line))"
+    )
+    command = [sys.executable, "-c", run, model]
     out = subprocess.run(command, env=environment, capture_output=True)
-    assert out.returncode == 0, out.stderr
     assert b"1 object" in out.stdout
-    os.unlink(model)
-    out = subprocess.run(command, env=environment, capture_output=True)
     assert out.returncode == 2
     assert out.stderr.count(b"\n") == 1
     assert b"does not exist" in out.stderr

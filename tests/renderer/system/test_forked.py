@@ -1,14 +1,10 @@
 """Processes that were forked: what would wait for ever there says so; what works still works."""
 
 import os
-import subprocess
-import sys
-from pathlib import Path
 
 import pytest
-from import_path import import_path
+from launching import launch
 
-PATH = import_path(str(Path(__file__).parents[1] / "trace" / "test_trace_jobs.py"))
 pytestmark = pytest.mark.skipif(not hasattr(os, "fork"), reason="POSIX's fork")
 
 # Prints what becomes of each call in a forked process; one that hangs is ended by an alarm.
@@ -33,7 +29,7 @@ def forked(name, call):
         print(name, "hung")
 """
 TRACER = """
-from test_trace_jobs import FRONT, LARGE, slow_scene
+from tests.renderer.trace.test_trace_jobs import FRONT, LARGE, slow_scene
 unused = Tracer(scene)
 tracer = Tracer(scene)
 tracer.render(camera, (8, 8))
@@ -68,10 +64,7 @@ print("parent", rasterizer.render(camera, (8, 8)).complete)
 
 
 def outcomes(script, folder):
-    done = subprocess.run(
-        [sys.executable, "-c", SCRIPT + script],
-        cwd=folder, env={**os.environ, "PYTHONPATH": PATH}, capture_output=True, text=True,
-    )  # fmt: skip
+    done = launch(["-c", SCRIPT + script], folder)
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""
     lines = (line.partition(" ") for line in done.stdout.splitlines())

@@ -10,12 +10,12 @@ import time
 from pathlib import Path
 
 import pytest
-from numba.core import caching
+from numba.core import caching, event
 
 import lucida
 from lucida.renderer.system import compile_note
 from lucida.renderer.trace.compile import compiled
-from lucida.renderer.trace.compile.cache_folder import prune, source_hash
+from lucida.renderer.trace.compile.cache_folder import find_cache_folder, prune, source_hash
 
 SMALL_KERNEL = """
 from lucida.renderer.trace.compile.compiled import kernel
@@ -92,18 +92,25 @@ def test_a_read_only_installation_caches_for_the_user(installation, tmp_path):
         assert Path(folder).is_relative_to(cache)
     assert Path(folder).name != source_hash()  # of the same sources at another place
 
-    # A damaged file costs compiling again: at once, and at the next start for the cache.
-    files = list(Path(folder).rglob("*.nb?"))
-    assert files
-    for file in files:
-        file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
-    for _ in range(2):
-        assert finish(start(installation, cache)) == f"{folder} False"
-
     # An edit of any file that kernels consist of leads to another folder.
     told, *folders = finish(start(installation, cache, SCRIPT + EDITS)).splitlines()
     assert told == f"{folder} True"
     assert folders[0] == folder and len(set(folders)) == 5
+
+
+def test_a_damaged_file_costs_compiling_at_once_and_at_the_next_start(tmp_path, monkeypatch):
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
+    monkeypatch.setattr(compiled, "cache_folder", lambda: find_cache_folder.__wrapped__()[0])
+    monkeypatch.setattr(compile_note, "_note", "")
+    compiles = []
+    for damaged in ("none", "none", "*.nb?", "none", "none"):
+        monkeypatch.setattr(compiled, "_has_failed", threading.Event())  # as in another process
+        for file in tmp_path.rglob(damaged):
+            file.write_bytes(file.read_bytes()[: file.stat().st_size // 2])
+        with event.install_recorder("numba:compile") as found:
+            assert compiled.kernel(tripled)(4) == 12
+        compiles.append(bool(found.buffer))
+    assert compiles == [True, False, True, True, False]
 
 
 def test_without_a_folder_kernels_are_compiled_each_time(monkeypatch):

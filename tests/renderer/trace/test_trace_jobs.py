@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import gc
-import os
-import subprocess
-import sys
 import threading
 import weakref
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from import_path import import_path
+from launching import launch
 from trace_reference import scene_of
 from waiting import PATIENT_S, wait_for
 
@@ -311,10 +308,10 @@ def test_an_error_in_the_team_reaches_the_caller():
     team.close()
 
 
-def test_the_interpreter_exits_while_jobs_run():
+def test_the_interpreter_exits_while_jobs_run(tmp_path):
     script = """
 import sys, time
-from test_trace_jobs import FRONT, LARGE, slow_scene
+from tests.renderer.trace.test_trace_jobs import FRONT, LARGE, slow_scene
 from lucida.renderer.trace import Tracer
 tracers = [Tracer(slow_scene(), threads=2, method="reference") for _ in range(2)]
 jobs = [tracer.start(FRONT, LARGE) for tracer in tracers for _ in range(2)]
@@ -322,8 +319,5 @@ while not jobs[0].progress or not jobs[2].progress:
     time.sleep(0.01)
 sys.exit(3)
 """
-    done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True,
-        env={**os.environ, "PYTHONPATH": import_path(__file__)},
-    )  # fmt: skip
+    done = launch(["-c", script], tmp_path)
     assert (done.returncode, done.stderr) == (3, "")

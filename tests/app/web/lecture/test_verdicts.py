@@ -17,7 +17,7 @@ ODD = (
     *("1_000", "01", "1.", "--2", "+-1", "1 2", "sqrt(-1)", "sqrt 2", "\u22121", "(1", "1)"),
     *("1,2", "'a'", "#", ".5", "5e", "1e-3j", "True", "1 # x", "a\\b", "\u221a4", "3\u00b72"),
 )
-ANSWERS, PLACES = 80, 6  # of each exercise
+ANSWERS, PLACES = 40, 6  # of each exercise
 
 
 def _typed(rng, value):
@@ -52,7 +52,7 @@ def _answers(rng, task, rays):
     return given
 
 
-def test_hundreds_of_answers_have_the_programs_verdicts(browser, lecture):
+def test_random_answers_have_the_programs_verdicts(browser, lecture):
     rng, cases, verdicts, tasks = random.Random(11), [], [], {}
     for step in lecture.builds:
         if isinstance(step.exercise, RayExercise | VectorExercise):
