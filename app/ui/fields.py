@@ -5,6 +5,7 @@ A level shows the value's position in its range, and a menu resets the value.
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import NamedTuple
 
@@ -63,6 +64,7 @@ class Scale(NamedTuple):
         return (0.0, 0.0) if self.least == -FLT_MAX else (self.least, self.most)
 
 
+@functools.lru_cache(1024)
 def shown_number(
     value: float, characters: int, decimals: int = DECIMALS, is_fine: bool = False
 ) -> str:

@@ -65,6 +65,7 @@ class MainWindow(Edits):
         self.files = Files(self._wake, folder)
         self.renderers = Renderers(self._wake, smooth)
         self.views = {view.name: view for view in make_views()}
+        self.lecture = self.view(LectureView)
         views = list(self.views.values())
         self.shell = Shell(views, self.files, keeper, folder)
         self._hovered: tuple[str, Pixel] | None = None
@@ -110,10 +111,6 @@ class MainWindow(Edits):
     def end_layout(self) -> None:
         """Record whether the frame's layout is final. Call once a frame."""
         self.is_rearranging = self.shell.stage.place() or self.lecture.is_entering
-
-    @property
-    def lecture(self) -> LectureView:
-        return self.view(LectureView)
 
     @property
     def has_tools(self) -> bool:

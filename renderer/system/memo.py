@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from operator import is_
 from typing import Any, Generic, TypeVar, TypeVarTuple
 
 import numpy as np
@@ -34,7 +35,7 @@ class Memo(Generic[*Parts, T]):
 
     def __call__(self, *key: *Parts) -> T:
         for number, (known, _) in enumerate(self._known):
-            if same(known, key):
+            if all(map(is_, known, key)) or same(known, key):
                 self._known.append(self._known.pop(number))
                 return self._known[-1][1]
         # Delete first, to free the memory, and so that a failing call leaves no stale value.

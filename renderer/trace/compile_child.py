@@ -6,14 +6,16 @@ import contextlib
 import gc
 import os
 import sys
+from collections.abc import Sequence
 
 from lucida.renderer.system.child import end_with_parent
 
 from .parts import compile_part
+from .threads.thread_pool import default_threads
 
 
 def main(*parts: str) -> None:
-    """Compile parts, several of them concurrently, each in a fork of this process.
+    """Compile parts in a fork for each processor. Parts in one fork share functions that they call.
 
     The exit status is 1 if the cache could not be written. The process exits at once, because
     freeing a compiler's million objects would take a sixth of its time. Turning off garbage
@@ -27,7 +29,8 @@ def main(*parts: str) -> None:
     import numba
 
     numba.njit(lambda: 0)()  # prepares numba's compiler, once for all
-    forks = [_fork(part) for part in parts]
+    count = min(default_threads(), len(parts))
+    forks = [_fork(parts[first::count]) for first in range(count)]
     os._exit(max(os.waitpid(fork, 0)[1] != 0 for fork in forks))
 
 
@@ -42,13 +45,13 @@ def import_compiler() -> None:
     from .tiles.engine import PacketEngine  # noqa: F401
 
 
-def _fork(part: str) -> int:
-    """Compile a part in a fork of this process. Return the fork's process id."""
+def _fork(parts: Sequence[str]) -> int:
+    """Compile parts in a fork of this process. Return the fork's process id."""
     if fork := os.fork():
         return fork
     try:
         end_with_parent()
-        os._exit(_compile(part))
+        os._exit(max(map(_compile, parts)))
     finally:
         os._exit(1)
 

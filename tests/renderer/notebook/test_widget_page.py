@@ -31,9 +31,9 @@ widget.render({ model, el: document.getElementById("place") });
 </script>"""
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def page(browser):
-    """A page that shows a widget; page.widget is that."""
+    """A page that shows a widget, for all tests; page.widget is that."""
     widget = explore("spheres", size=SIZE)
     folder = Path(explore.__code__.co_filename).parent
     parts = {"css": (folder / "explore.css").read_text("utf-8"), "size": json.dumps(SIZE)}

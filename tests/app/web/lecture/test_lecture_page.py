@@ -48,6 +48,7 @@ def written(lecture, tmp_path_factory):
 def shared(browser, written):
     """The page in a browser, for all tests; what goes wrong there fails the last of them."""
     page = Page(browser, written[0], device_scale_factor=0.25, has_touch=True)
+    page.tab.add_init_script("WebGL2RenderingContext.prototype.drawArrays = () => {}")  # is slow
     yield page
     page.tab.close()
     assert page.problems == []
@@ -75,16 +76,11 @@ def go(tab, number):
     tab.get_by_text(f"{number} / {len(TITLES)}", exact=True).wait_for()
 
 
-def test_an_address_opens_its_build(opened):
-    opened.evaluate("location.hash = '#1.2'")
-    opened.reload()
-    assert opened.locator(".step.current").get_attribute("id") == "1.2"
-
-
 def test_keys_walk_all_builds(opened, written):
     _, some = written
-    for _ in some.builds[2:]:
-        opened.keyboard.press("ArrowRight")
+    press = "document.body.dispatchEvent(new KeyboardEvent('keydown', press))"
+    script = f"const press = {{ key: 'ArrowRight', bubbles: true }}; while (count--) {press};"
+    opened.evaluate(f"(count) => {{ {script} }}", len(some.builds) - 2)
     assert not opened.is_disabled("#next")
     opened.keyboard.press("ArrowRight")
     assert opened.is_disabled("#next")
@@ -109,23 +105,6 @@ def try_it(tab):
     tab.locator(".current .try summary").click()
     tab.locator(".current .lucida-figure").wait_for()
     tab.evaluate("lucida.ready")
-
-
-def test_a_remote_is_heard_wherever_the_focus_is(opened):
-    opened.set_viewport_size({"width": 1280, "height": 2000})
-    try_it(opened)
-    for focused in ("canvas", "[role=slider]"):
-        part = opened.locator(f".current .lucida-figure {focused}").first
-        part.focus()
-        opened.keyboard.press(".")
-        assert opened.locator("body.blank").count() == 1
-        opened.keyboard.press("PageDown")  # it shows the screen again, and no more
-        assert opened.locator("body.blank").count() == 0
-        assert place(opened).startswith("1 /")
-        part.focus()
-        opened.keyboard.press("PageDown")
-        assert opened.url.endswith("#1.2")
-        opened.keyboard.press("PageUp")
 
 
 def test_swipes_and_typed_numbers_go_to_builds(opened):
@@ -192,6 +171,7 @@ def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
     assert current.locator("svg path.given").count()
     assert current.locator("input[name='direction']").get_attribute("aria-invalid") == "true"
     opened.reload()
+    assert opened.locator(".step.current").get_attribute("id") == str(number + 1)
     assert opened.locator(f"form[data-step='{number + 1}'] input").first.input_value()
     opened.click("#open-answers")
     opened.fill("#student", "Ada")
@@ -206,7 +186,9 @@ def test_answers_are_judged_drawn_and_saved(opened, written, tmp_path):
                  "-o", str(tmp_path / "class.html")]) == 0  # fmt: skip
 
 
-def test_handles_are_dragged_by_keys_and_mouse(opened, written):
+def test_handles_are_dragged_and_a_remote_is_heard_wherever_the_focus_is(opened, written):
+    opened.set_viewport_size({"width": 1280, "height": 2000})
+
     def handle(name):
         found = opened.locator(f".current .lucida-handles [aria-label='{name}']")
         found.wait_for()
@@ -229,7 +211,18 @@ def test_handles_are_dragged_by_keys_and_mouse(opened, written):
     opened.keyboard.press("ArrowRight")
     moved = np.subtract(opened.evaluate("lucida.camera.eye"), dragged)
     assert np.dot(moved, opened.evaluate("lucida.camera.u")) > 0
-    assert place(opened).startswith("1 /")
+    for focused in ("canvas", "[role=slider]"):
+        part = opened.locator(f".current .lucida-figure {focused}").first
+        part.focus()
+        opened.keyboard.press(".")
+        assert opened.locator("body.blank").count() == 1
+        opened.keyboard.press("PageDown")  # it shows the screen again, and no more
+        assert opened.locator("body.blank").count() == 0
+        assert place(opened).startswith("1 /")
+        part.focus()
+        opened.keyboard.press("PageDown")
+        assert opened.url.endswith("#1.2")
+        opened.keyboard.press("PageUp")
     opened.keyboard.press("PageDown")
     try_it(opened)
     handle("View direction").focus()
@@ -264,7 +257,7 @@ def test_hostile_texts_are_only_texts(browser, tmp_path):
     path.write_text(page(hostile, [()] * len(hostile.builds)), encoding="utf-8")
     opened = Page(browser, path)
     tab = opened.tab
-    for field in tab.locator("form.exercise").all()[:: len(TEXTS) // 6]:
+    for field in tab.locator("form.exercise").all()[:: len(TEXTS) // 3]:
         field.evaluate("form => { form.elements[0].value = '(0, 1, 0)'; form.requestSubmit(); }")
     assert len(TEXTS) + len(FORMULAS) >= 60
     assert tab.locator("section.step").count() == len(hostile.steps)
@@ -285,9 +278,12 @@ def test_a_formula_writes_known_elements_only(latex):
     assert not re.search(r"<[^>]*\b(?:href|style|id|on\w+|src|background)\s*=", html)
 
 
-# Hide the builds all of whose text has the colours, the size and the weight of an earlier one's.
+# Remove the builds all of whose text has the colours, the size and the weight of an earlier one's.
 ONE_OF_EACH_LOOK = """() => { const seen = new Set();
-  for (const step of document.querySelectorAll(".step")) {
+  window.steps ??= [...document.querySelectorAll(".step")];
+  const { parentElement } = document.querySelector(".step");
+  for (const step of steps) {
+    parentElement.append(step);
     const count = seen.size;
     for (const one of step.querySelectorAll("*")) {
       const { color, fontSize, fontWeight } = getComputedStyle(one);
@@ -295,7 +291,7 @@ ONE_OF_EACH_LOOK = """() => { const seen = new Set();
       for (let at = one; at; at = at.parentElement) look.push(getComputedStyle(at).backgroundColor);
       seen.add(look.filter((part) => part !== "rgba(0, 0, 0, 0)").join());
     }
-    step.classList.toggle("current", seen.size > count);
+    if (seen.size === count) step.remove();
   } }"""
 
 
