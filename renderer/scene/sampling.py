@@ -111,7 +111,7 @@ def between(
     sample: Callable[[FlatScene, Ints, F64], F64], flat: FlatScene, objects: Ints, places: F64
 ) -> tuple[F64, F64]:
     """Return the least and the largest value of sampled(), gloss() or opacity() at texel
-    coordinates (k, n, 2), and also between them if they are more than one texel apart.
+    coordinates (k, n, 2), and between those more than one texel apart.
     """
     found = np.stack([sample(flat, objects, place) for place in places])
     least, most = found.min(axis=0), found.max(axis=0)

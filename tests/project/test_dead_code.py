@@ -59,8 +59,11 @@ def uses(module, tree):
     imported modules."""
     package = MODULES[module].name == "__init__.py"
     above = module.split(".") if package else module.split(".")[:-1]
-    named, nodes = {}, [*ast.walk(tree)]
-    for node in nodes:
+    named, nodes = {}, [tree]
+    for node in nodes:  # ast.walk() takes twice as long
+        for part in vars(node).values():
+            parts = part if isinstance(part, list) else [part]
+            nodes += [one for one in parts if isinstance(one, ast.AST)]
         if isinstance(node, ast.ImportFrom):
             start = above[: len(above) - node.level + 1] if node.level else []
             home = ".".join([*start, *([node.module] if node.module else [])])

@@ -82,8 +82,10 @@ class RayTrial:
             made.append(case_values(case, *case.pixel, its))
             scale.append(largest_number(case.camera))
         self._scale = np.array(scale)
-        known = {name: np.array([one[name] for one in made], float) for name in made[0]}
-        self._known = {k: one[:, None] if one.ndim == 1 else one for k, one in known.items()}
+        self._known = {  # shapes (N, 1), (N, 3), (N, 4, 4)
+            name: np.atleast_2d(np.array([one[name] for one in made], float).T).T
+            for name in made[0]
+        }
         self._finite = np.isfinite(answers).all(axis=(-2, -1))
         self._origins, directions = answers[..., 0, :], answers[..., 1, :]
         with np.errstate(all="ignore"):

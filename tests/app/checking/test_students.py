@@ -246,7 +246,7 @@ def test_right_programs_are_right(name: str) -> None:
 def test_wrong_rays_are_found_and_their_mistake_named(wrong: FileStudent, name: str) -> None:
     """In both projections, or, where both have the same phrase, in one or the other."""
     _, *says, known = WRONG_RAYS[name]
-    asked = [replace(TASKS[task], function=named("viewing_ray", name)) for task in RAYS]
+    asked = [replace(TASKS[task], function=named("viewing_ray", name), count=5) for task in RAYS]
     if says[0] == says[1]:
         one = list(WRONG_RAYS).index(name) % 2
         asked, says = asked[one : one + 1], says[one : one + 1]

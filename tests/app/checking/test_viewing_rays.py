@@ -17,12 +17,12 @@ from lucida.app.checking.tasks import CheckCase
 
 KIND = KINDS["viewing-ray"]
 TASK = next(task for task in BUILTIN if task.name == "viewing-ray")
-MANY = replace(TASK, count=1_000, size=(2, 1))
+MANY = replace(TASK, count=500, size=(2, 1))
 
 
 @pytest.fixture(scope="module")
 def many():
-    """4,000 rays of 2,000 cameras, and of each ray what the student's function is given."""
+    """2,000 rays of 1,000 cameras, and of each ray what the student's function is given."""
     cases = KIND.cases(MANY) + KIND.cases(replace(MANY, projection="parallel"))
     names = ("eye", "u", "v", "w")
     known = {name: np.array([getattr(c.camera, name) for c in cases]) for name in names}
@@ -60,9 +60,9 @@ def wrong(cases, made, task=MANY):
 
 @pytest.mark.parametrize("kind", [np.float64, np.float32])
 @pytest.mark.parametrize("through_the_world", [False, True])
-def test_right_answers_are_right_for_two_thousand_cameras(many, kind, through_the_world):
+def test_right_answers_are_right_for_a_thousand_cameras(many, kind, through_the_world):
     cases, known = many
-    assert len({id(case.camera) for case in cases}) == 2_000
+    assert len({id(case.camera) for case in cases}) == 1_000
     assert not wrong(cases, rays(known, kind, through_the_world)).any()
 
 

@@ -88,7 +88,9 @@ def test_a_special_file_is_not_opened_in_the_window(folder: Path, name: str, kin
         open_sources([name], False)
 
 
-RAYS = "def viewing_ray(i, j, width, height, camera):\n    return camera.eye, (0, 0, -1)\n"
+RAYS = (
+    "def viewing_ray(i, j, width, height, camera):\n    return camera.eye, [-x for x in camera.w]\n"
+)
 WRITERS = [
     "check --starter all -o out.py",
     "check rays.py --task viewing-ray --json out.json",
@@ -134,7 +136,7 @@ def test_no_earlier_results_stay_if_new_ones_cannot_be_written(
 ) -> None:
     (folder / "view.toml").write_text(VIEW, "utf-8")
     (folder / "rays.py").write_text(RAYS, "utf-8")
-    line = ["check", "rays.py", "--json", "out.json"]
+    line = WRITERS[1].split()
     assert main(line) != 2
     assert (folder / "out.json").exists()
     with files_up_to(0):

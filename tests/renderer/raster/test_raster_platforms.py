@@ -1,13 +1,9 @@
 """OpenGL platforms: the choice, several contexts in turn, a window's context, and giving back."""
 
-import os
-import subprocess
-import sys
-
 import moderngl
 import numpy as np
 import pytest
-from import_path import import_path
+from launching import launch
 from needed import absent
 
 from lucida.renderer.camera.camera import Camera
@@ -78,7 +74,7 @@ def test_a_windows_context_is_drawn_in_and_left_as_it_was(foreign):
 
 WITH_A_WINDOW = """
 import glfw, moderngl
-from test_raster_platforms import color_of, painted
+from tests.renderer.raster.test_raster_platforms import color_of, painted
 from lucida.renderer.raster import Rasterizer
 
 class Loader:
@@ -102,11 +98,9 @@ print("done")
 
 
 @pytest.mark.parametrize("_session_rasterizer", ["osmesa"], indirect=True)
-def test_beside_a_windows_context_on_x11(gl_backend, xvfb):
+def test_beside_a_windows_context_on_x11(gl_backend, xvfb, tmp_path):
     """GLX, EGL and OSMesa in one thread."""
-    environment = {**os.environ, "DISPLAY": xvfb, "PYTHONPATH": import_path(__file__)}
-    command = [sys.executable, "-c", WITH_A_WINDOW]
-    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    done = launch(["-c", WITH_A_WINDOW], tmp_path, xvfb)
     assert done.stdout == "done\n", done.stderr
 
 

@@ -27,7 +27,7 @@ TASKS = {
     for task in load_tasks(task_path(name)).tasks
     if task.kind == "viewing-ray"
 }
-CAMERAS = 20
+CAMERAS = 10
 RAYS = 40
 SHARES = 5  # of the mistakes, each of which takes a search through all others
 

@@ -88,7 +88,7 @@ def drawn(mesh: Mesh, camera: Camera) -> set:
 @pytest.mark.parametrize("shared", [True, False], ids=["shared", "apart"])
 def test_a_surface_s_outline_is_by_definition_however_it_is_wound(camera, turned, shared):
     rng = np.random.default_rng(7)
-    for _ in range(5):
+    for _ in range(3):
         mesh = sheet(rng, turned, shared)
         borders, turning = by_definition(mesh, camera)
         assert turning - borders  # the surface folds

@@ -3,6 +3,7 @@
 import random
 
 import numpy as np
+import pytest
 
 from lucida.app.lecture.exercises import ChoiceExercise, RayExercise, VectorExercise
 from lucida.app.lecture.hidden_pixels import ids_seen
@@ -18,6 +19,13 @@ ODD = (
     *("1,2", "'a'", "#", ".5", "5e", "1e-3j", "True", "1 # x", "a\\b", "\u221a4", "3\u00b72"),
 )
 ANSWERS, PLACES = 40, 6  # of each exercise
+
+
+@pytest.fixture(scope="module")
+def tab(browser):
+    opened = browser.new_page()
+    yield opened
+    opened.close()
 
 
 def _typed(rng, value):
@@ -52,7 +60,7 @@ def _answers(rng, task, rays):
     return given
 
 
-def test_random_answers_have_the_programs_verdicts(browser, lecture):
+def test_random_answers_have_the_programs_verdicts(tab, lecture):
     rng, cases, verdicts, tasks = random.Random(11), [], [], {}
     for step in lecture.builds:
         if isinstance(step.exercise, RayExercise | VectorExercise):
@@ -61,14 +69,12 @@ def test_random_answers_have_the_programs_verdicts(browser, lecture):
             given = [_answers(rng, step.exercise, rays) for _ in range(ANSWERS)]
             cases += [(step.title, texts) for texts in given]
             verdicts += [list(step.exercise.check(texts)) for texts in given]
-    tab = browser.new_page()
     script = (
         "([tasks, cases]) => {" + bundle("verdict.js") + "; return cases.map(([name, texts]) => {"
         "const v = checkTexts(tasks[name], texts);"
         "return [v.right, v.text, v.field, v.mistake, v.read, v.isAnswer]; }); }"
     )
     found = tab.evaluate(script, [tasks, cases])
-    tab.close()
     wrong = [(case, ours, theirs) for case, ours, theirs in zip(cases, verdicts, found, strict=True)
              if ours != theirs]  # fmt: skip
     assert wrong == []
@@ -78,7 +84,7 @@ def test_random_answers_have_the_programs_verdicts(browser, lecture):
     }  # fmt: skip
 
 
-def test_places_have_the_programs_verdicts(browser, lecture):
+def test_places_have_the_programs_verdicts(tab, lecture):
     step = next(one for one in lecture.builds if isinstance(one.exercise, HideExercise))
     task, rng, size = step.exercise, np.random.default_rng(5), (160, 120)
     start = task.middle(task.moved)
@@ -104,16 +110,14 @@ def test_places_have_the_programs_verdicts(browser, lecture):
           return [right, text];
         }); }"""
     )
-    tab = browser.new_page()
     given = [exercises.data_of(step, "", size), packed_scene(task.scene)]
     found = tab.evaluate(script, [*given, start.tolist(), np.asarray(places).tolist()])
-    tab.close()
     assert [pair for pair in zip(expected, found, strict=True) if pair[0] != pair[1]] == []
     assert {right for right, _ in found} == {True, False}
 
 
-def test_a_choice_has_the_programs_verdicts(browser, lecture):
-    tab, count = browser.new_page(), 0
+def test_a_choice_has_the_programs_verdicts(tab, lecture):
+    count = 0
     script = (
         "([task, chosen]) => {" + bundle("verdict.js") + "; const v = checkOption(task, chosen);"
         "return [v.right, v.text, v.field, v.mistake, v.read, v.isAnswer]; }"
@@ -125,5 +129,4 @@ def test_a_choice_has_the_programs_verdicts(browser, lecture):
                 found = tab.evaluate(script, [data, chosen])
                 assert found == list(step.exercise.check(chosen))
                 count += 1
-    tab.close()
     assert count
