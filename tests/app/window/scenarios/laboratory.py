@@ -25,7 +25,6 @@ def drive_every_page_is_drawn_and_moves(d):
         for one, other in itertools.pairwise(seen):
             assert one != other, page
     d.picture()
-    ALONE.close(d)
 
 
 def drive_the_pointer_reads_the_image(d):
@@ -41,4 +40,3 @@ def drive_the_pointer_reads_the_image(d):
         d.move_to((x, y))
         texts.append(words())
     assert texts[0] != texts[1] and "schematic" in texts[1]
-    ALONE.close(d)

@@ -52,7 +52,6 @@ def fail_until_retried(d, error, told):
 
 
 def drive_failures_of_the_tracer_are_told_and_tried_again(d):
-    fail_until_retried(d, MemoryError(), "MemoryError")
     fail_until_retried(d, LucidaError("tracer", "broke", "mend it"), "broke")
     fail_until_retried(d, SystemExit(3), "SystemExit")
     d.window.history = replace(d.window.history, present=d.start)
@@ -76,17 +75,18 @@ def drive_a_lost_context_is_told_and_the_window_goes_on(d):
 def drive_failures_of_the_rasterizer_are_told_and_survived(d):
     textures = d.renderers.textures
     rasterizer = textures.rasterizer.of(d.state.scene)
-    for error in (
+    errors = (
         moderngl.Error("GLSL: 0:1: syntax error"),
         LucidaError("OpenGL", "GL_OUT_OF_MEMORY at a texture of 1x1", "close other programs"),
         MemoryError(),
-    ):
+    )
+    for height, error in enumerate(errors, 40):
 
         def fail(*_, error=error):
             raise error
 
         rasterizer.draw = fail
-        d.drag_field("eye.x", 10)
+        d.change(images={"resolution": (50, height), "magnification": 1.0})
         d.until(lambda: d.renderers.raster_error is not None)
         d.until(lambda: is_told(d))
         del rasterizer.draw

@@ -1,5 +1,7 @@
 """The mouse over the images, and the keys that act where it is."""
 
+from dataclasses import replace
+
 import numpy as np
 from window_driver import Key, changed
 
@@ -18,17 +20,18 @@ def drive_the_mouse_turns_moves_and_zooms(d):
         assert np.allclose(camera.basis.T @ camera.basis, np.eye(3))
         assert abs(camera.u[1]) < 1e-9  # no roll
         assert not np.allclose(camera.w, start.w)
-        d.settle()
     after = d.agreeing_images()
     assert min(changed(a, b) for a, b in zip(before, after, strict=True)) > 0.1
+    d.window.change(d.start)
+    d.settle()
+    was = window.state.camera
+    pixel = (window.renderers.size[1] // 2, window.renderers.size[0] // 2)
+    parameter = window.renderers.depth_at(window.state, pixel)
+    ray = window.renderers.camera(window.state).ray(*pixel, window.renderers.size)
+    world = ray.origin + parameter * ray.direction
     for name, button, key in ((RASTER, 1, 0), (RAY, 2, 0), (RASTER, 0, Key.mod_shift)):
         d.window.change(d.start)
-        d.settle()
-        was = window.state.camera
-        pixel = (window.renderers.size[1] // 2, window.renderers.size[0] // 2)
-        parameter = window.renderers.depth_at(window.state, pixel)
-        ray = window.renderers.camera(window.state).ray(*pixel, window.renderers.size)
-        world = ray.origin + parameter * ray.direction
+        d.until(lambda: window.renderers.depth_at(window.state, pixel) == parameter)
         if key:
             d.ctx.key_down(key)
         x, y = d.point(name, 0, 0)
@@ -41,7 +44,6 @@ def drive_the_mouse_turns_moves_and_zooms(d):
         row, column, _ = window.renderers.camera(window.state).project(world, window.renderers.size)
         assert abs(row - (pixel[0] - 21)) < 0.05
         assert abs(column - (pixel[1] + 37)) < 0.05
-        d.settle()
     was = window.state.camera
     steps = d.steps
     d.ctx.mouse_teleport_to_pos(d.point(RASTER, 0.5, 0.6))
@@ -50,9 +52,8 @@ def drive_the_mouse_turns_moves_and_zooms(d):
     d.frames(2)
     assert window.state.camera.eye != was.eye
     assert d.steps == steps + 1
-    d.reset()
-    d.click("//Camera/parallel")
-    was = window.state.camera
+    was = replace(start, projection="parallel")
+    d.window.change(d.start.with_camera(was))
     d.ctx.mouse_teleport_to_pos(d.point(RAY, 0.3, 0.3))
     d.ctx.mouse_wheel_y(3)
     d.frames(2)

@@ -49,10 +49,7 @@ def drive_a_black_image_has_a_button_that_helps(d):
         d.settle()
         assert window.renderers.why_black(window.state) is None
         window.undo()
-        d.settle()
         assert window.state.camera == camera
-    window.change(before)
-    d.settle()
 
 
 def drive_the_note_on_a_scene_without_objects_needs_no_scrollbar(d):
@@ -66,7 +63,7 @@ def drive_the_note_on_a_scene_without_objects_needs_no_scrollbar(d):
         scrolls.append(imgui.get_scroll_max_y())
         wrapped(*text)
 
-    for scale in (1.0, 1.1, 1.25, 2.0):
+    for scale in (1.0, 1.1, 2.0):
         d.change(preferences={"font_scale": scale})
         d.settle()
         dark_note.wrapped = noting

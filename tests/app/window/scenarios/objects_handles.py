@@ -38,23 +38,22 @@ def drive_handles_move_in_the_images_and_outside(d):
 
 def drive_escape_and_undo_end_the_drag_of_a_handle(d):
     choose_to(d, "move", "shiny sphere")
-    for view in (RASTER, OUTSIDE):
+    for view, end in ((RASTER, _escape), (OUTSIDE, Driver.undo)):
         steps, before = d.steps, ball(d, "shiny sphere").center
-        for end in (_escape, Driver.undo):
-            grip, way = arrow(d, view, "shiny sphere", 1)
-            d.move_to(tuple(grip))
-            d.ctx.mouse_down(0)
-            for length in (5, 25):
-                d.move_to(tuple(grip + length * way))
-            assert ball(d, "shiny sphere").center != before, view
-            end(d)
-            d.frames()
-            d.ctx.mouse_teleport_to_pos(tuple(grip + 40 * way))  # the mouse is still down
-            d.ctx.mouse_up(0)
-            d.frames()
-            assert ball(d, "shiny sphere").center == before, view
-            assert d.steps == steps
-            assert now(d) == ("shiny sphere",)
+        grip, way = arrow(d, view, "shiny sphere", 1)
+        d.move_to(tuple(grip))
+        d.ctx.mouse_down(0)
+        for length in (5, 25):
+            d.move_to(tuple(grip + length * way))
+        assert ball(d, "shiny sphere").center != before, view
+        end(d)
+        d.frames()
+        d.ctx.mouse_teleport_to_pos(tuple(grip + 40 * way))  # the mouse is still down
+        d.ctx.mouse_up(0)
+        d.frames()
+        assert ball(d, "shiny sphere").center == before, view
+        assert d.steps == steps
+        assert now(d) == ("shiny sphere",)
     drag_handle(d, view, "shiny sphere", 1)  # and it can be dragged again
     assert ball(d, "shiny sphere").center != before
 

@@ -86,6 +86,6 @@ def drive_nothing_is_drawn_anew_while_nothing_changes(d):
     d.settle()
     uploads = [d.window.views[name]._uploads for name in ("Raster", "Ray")]
     before = [one.get("photograph") for one in uploads]
-    d.frames(20)
+    d.frames(6)
     assert None not in before
     assert [one.get("photograph") for one in uploads] == before

@@ -26,7 +26,8 @@ def drive_a_click_marks_a_pixel_in_both(d):
     d.press(Key.right_arrow)
     d.press(SHIFT | Key.down_arrow)
     assert window.state.marked == (160, 121), window.state.marked
-    d.ctx.key_press(SHIFT | Key.left_arrow, 20)
+    d.change(marked=(160, 15))
+    d.ctx.key_press(SHIFT | Key.left_arrow, 2)
     d.press(Key.up_arrow)
     assert window.state.marked == (159, 0), "it stays in the image"
     d.ctx.key_press(SHIFT | Key.right_arrow, 3)

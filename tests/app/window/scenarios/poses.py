@@ -142,17 +142,17 @@ def drive_the_photograph_follows_the_set(d):
 
     def take(number):
         view(d).take(d.window, number)
-        d.settle()
 
     take(0)
     d.click(f"//###{POSES}/**/on the images")
     d.settle()
     assert restored(file().file) == str(photo_path(poses, 0)) and file().follows
     take(1)
-    assert restored(file().file) == str(photo_path(poses, 1))
+    d.until(lambda: restored(file().file) == str(photo_path(poses, 1)))
     toasts = d.window.shell.toasts
     toasts.clear()
     take(COUNT - 1)  # its file is not there
+    d.until(lambda: bool(toasts.texts))
     assert f"{COUNT - 1:03}.png: does not exist" in toasts.texts[0]
     d.undo()
     d.settle()

@@ -35,24 +35,22 @@ def drive_a_ray_image_that_has_not_come_is_plain_ground(d):
         try:
             camera = window.state.camera
             window.change(window.state.with_camera(orbited(camera, (0, 0, 0), 0.1, 0.0)))
-            d.frames(5)
+            d.frames(3)
             assert len(np.unique(middle(d, view), axis=0)) > 20, "an image of a camera on its way"
             window.undo()
             shown = window.state
             window.change(with_options(shown, images={"resolution": (300, 100)}))
-            d.frames(5)
+            d.frames(3)
             assert len(np.unique(middle(d, view), axis=0)) == 1, "an image of another size"
             window.undo()
             window.open("columns")
             d.until(lambda: window.state.scene.name == "columns")
-            d.frames(5)
+            d.frames(3)
             assert len(np.unique(middle(d, view), axis=0)) == 1, "an image of another scene"
         finally:
             del live.request
         d.settle()
         assert len(np.unique(middle(d, view), axis=0)) > 20
-        window.undo()
-        d.settle()
 
 
 def seen_at(d, pixel):
@@ -75,7 +73,7 @@ def drive_without_a_ray_view_the_status_is_of_the_raster_image(d):
     of_rays = seen_at(d, pixel)
     assert ", t = " in of_rays and both.raster_s > 0
     window.shell.stage.show(RAY, False)
-    d.frames(5)
+    d.frames(3)
     window.open("spheres")
     d.until(lambda: window.state.scene.name == "spheres")
     d.settle()
@@ -85,8 +83,5 @@ def drive_without_a_ray_view_the_status_is_of_the_raster_image(d):
     name = "background" if found is None else window.state.scene.objects[found].name
     assert seen_at(d, pixel).startswith(name)
     window.shell.stage.show(RASTER, False)
-    d.frames(5)
+    d.frames(3)
     assert seen_at(d, pixel) == "" and both.raster_s == 0
-    window.shell.stage.show(RASTER, True)
-    window.shell.stage.show(RAY, True)
-    d.frames(5)

@@ -15,9 +15,8 @@ def view(d):
 
 
 def enter(d, **options):
-    d.layout("Loops")
     d.change(stepper=options)
-    d.settle()
+    d.layout("Loops")
     d.until(lambda: len(view(d).moments) > 0)
 
 
@@ -40,11 +39,11 @@ def drive_buttons_go_through_both_runs(d):
     enter(d, steps=(0, 0), canvas=(16, 12))
     steps = d.steps
     assert [moment.step for moment in moments(d)] == [0, 0]
-    for count in (1, 2, 3):
+    for count in (1, 2):
         press(d, "step")
         assert [moment.step for moment in moments(d)] == [count, count]
     press(d, "back")
-    assert [moment.step for moment in moments(d)] == [2, 2]
+    assert [moment.step for moment in moments(d)] == [1, 1]
     press(d, "pixel")
     by_object, by_image = moments(d)
     assert by_image.pixel == (0, 0) and by_object.triangle is not None
@@ -61,8 +60,7 @@ def drive_buttons_go_through_both_runs(d):
 def drive_the_outside_view_shows_the_ray_and_the_triangle(d):
     enter(d, steps=(0, 0), canvas=(16, 12))
     assert strokes(d, "ray") == strokes(d, "triangle") == 0
-    for name in ("object", "pixel", "step", "step", "step", "step"):
-        press(d, name)
+    d.change(stepper={"steps": (10, 49)})
     d.settle()
     assert strokes(d, "ray") > 0
     assert strokes(d, "triangle") > 0 and strokes(d, "bounding box") > 0

@@ -9,6 +9,7 @@ from PIL import Image
 from window_driver import Key
 
 from lucida.app.window.figure_box import FigureBox
+from lucida.app.window.figure_choice import FigureChoice
 from lucida.app.window.figures import encoder
 
 SPACE = "{http://www.w3.org/2000/svg}"
@@ -52,7 +53,7 @@ def drive_images_and_formulas_are_figures_too(d):
     d.window.show_in("Probe", "Probe")
     d.until(lambda: "Probe" in d.stage.rects and not d.window.is_rearranging)
     d.settle()
-    choice = replace(_open(d).choice, size=(600, 200), ground="transparent")
+    choice = FigureChoice(size=(600, 200), ground="transparent")
     for what, least in (("pair", 0.3), ("raster", 0.15), ("probe", 0.001)):
         made = d.in_draw_lists(lambda what=what: encoder(d.window, replace(choice, what=what)))
         pixels = np.asarray(Image.open(io.BytesIO(made(".png"))))

@@ -189,10 +189,6 @@ def drive_a_file_that_a_lecture_names_is_not_run_unasked(d):
     d.click(f"{WINDOW}/Run it")
     until_told(d, "Every ray is correct.")
     assert ran.exists()
-    d.settle()
-    d.window.lecture.leave(d.window)
-    d.frames(5)
-    d.settle()
 
 
 def children():
