@@ -111,28 +111,29 @@ def between(
     sample: Callable[[FlatScene, Ints, F64], F64], flat: FlatScene, objects: Ints, places: F64
 ) -> tuple[F64, F64]:
     """Return the least and the largest value of sampled(), gloss() or opacity() at texel
-    coordinates (k, n, 2), and between those more than one texel apart.
+    coordinates (k, n, 2), and between those more than 1/8 texel apart.
     """
     found = np.stack([sample(flat, objects, place) for place in places])
     least, most = found.min(axis=0), found.max(axis=0)
-    low, size = places.min(axis=0), np.ptp(places, axis=0)
+    low, high = places.min(axis=0), places.max(axis=0)
+    size = high - low
     wide = (size > 1 / _LATTICE).any(axis=1)
-    steps = np.linspace(0, 1, _LATTICE + 1)
-    for u in steps if wide.any() else ():
-        place = low[wide] + size[wide] * [[[u, v]] for v in steps]
-        # Extremes are only at the middles of texels.
-        for at in (place, np.clip(np.floor(place) + 0.5, low[wide], low[wide] + size[wide])):
-            more = sample(flat, np.tile(objects[wide], len(at)), at.reshape(-1, 2))
-            more = more.reshape(*at.shape[:2], -1)
-            least[wide] = np.minimum(least[wide], more.min(axis=0))
-            most[wide] = np.maximum(most[wide], more.max(axis=0))
+    middles = [np.floor(low + step * size) + 0.5 for step in np.linspace(0, 1, _LATTICE + 1)]
+    # Extremes are only at the middles of texels, and at the edges.
+    tried = np.stack([low, high, *middles]).clip(low, high)[:, wide]
+    for u in tried[..., 0] if wide.any() else ():
+        at = np.stack(np.broadcast_arrays(u, tried[..., 1]), -1)
+        more = sample(flat, np.tile(objects[wide], len(at)), at.reshape(-1, 2))
+        more = more.reshape(*at.shape[:2], -1)
+        least[wide] = np.minimum(least[wide], more.min(axis=0))
+        most[wide] = np.maximum(most[wide], more.max(axis=0))
     vast = (size > _LATTICE / 2).any(axis=1)  # any of the image's texels may be there
     for number in np.unique(objects[vast]):
         _, width, height, _ = flat.textures[number, 0].tolist()
         mine = vast & (objects == number)
         for row in range(height):
-            middles = np.column_stack([np.arange(width) + 0.5, np.full(width, row + 0.5)])
-            every = sample(flat, np.full(width, number), middles)
+            texels = np.column_stack([np.arange(width) + 0.5, np.full(width, row + 0.5)])
+            every = sample(flat, np.full(width, number), texels)
             least[mine] = np.minimum(least[mine], every.min(axis=0))
             most[mine] = np.maximum(most[mine], every.max(axis=0))
     return least, most

@@ -1,5 +1,7 @@
 """Textures: all renderers look up the same place of an image, and find the same light there."""
 
+import itertools
+
 import numpy as np
 import pytest
 from agreeing import agree
@@ -211,11 +213,12 @@ def test_whole_images_by_which_a_ball_s_is_moved_change_nothing(wrap):
         np.testing.assert_allclose(images[1], images[0], atol=1e-3)
 
 
-def test_the_least_and_the_most_light_between_places_of_an_image():
+@pytest.mark.parametrize("wraps", [*itertools.product(WRAPS, repeat=2)])
+def test_the_least_and_the_most_light_between_places_of_an_image(wraps):
     rng = np.random.default_rng(5)
-    flat = flatten(on_wall(Texture(noise(7, 5), ("mirror", "clamp"))))
+    flat = flatten(on_wall(Texture(noise(7, 5), wraps)))
     objects = np.zeros(1, int)
-    for size in (0.4, 2.3, 3.9, 40.0):
+    for size in 5 * (0.4, 2.3, 3.9, 40.0):
         low = rng.uniform(-9, 9, 2)
         extent = np.array((size, 0.3 * size))
         corners = np.stack([low, low + extent])[:, None]
