@@ -32,8 +32,8 @@ def noted_overflow():
 
 
 def drive_in_a_hall_no_capital_is_low_and_no_text_is_scrolled(d):
-    """1/50 of the window's height at least: at the end of every second step, and in all views alone.
-    Every fourth step shows its views too, which are drawn slowly.
+    """1/50 of the window's height at least: at every second step's end, in all views alone. Every
+    fourth step shows its views too, which are drawn slowly.
     """
     lecture, low, scrolled = load_lecture(BUILTIN), {}, {}
     failed, draw = d.stage.failed, d.stage.failed.draw
