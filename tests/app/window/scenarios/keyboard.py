@@ -69,7 +69,7 @@ def drive_alt_leads_into_the_menus_and_back(d):
     context, menus = imgui.get_current_context(), d.window.menu_keys
 
     def at():
-        d.frames(5)
+        d.frames(2)
         return context.nav_window.name if context.nav_window else ""
 
     d.ctx.mouse_teleport_to_pos(d.point("Raster", 0.5, 0.5))
