@@ -47,8 +47,8 @@ def views_in_turn(d: Driver, pages: Sequence[str] = PAGES) -> Iterator[str]:
         for page in pages if name == LABORATORY else ("",):
             if page:
                 d.change(laboratory={"page": page})
-            d.frames(3)
-            d.until(lambda name=name: stage.views[name].settled)
+            d.frames()
+            d.until(lambda name=name: name in stage.rects and stage.views[name].settled)
             d.frames(3)
             yield f"{name} {page}"
     show_only(d, before)

@@ -37,7 +37,7 @@ def stands(d):
 def drive_after_a_click_in_the_camera_panel_or_by_the_keyboard(d):
     """F3 shows the keyboard's own frame; the mouse has not moved since."""
     enter(d, "Side by side")
-    for item in ("//Camera/Canonical", "//Camera/Scene's view", d.field("eye.x")):
+    for item in ("//Camera/Canonical", d.field("eye.x")):
         d.click(item)
         rest(d, RAY if item == d.field("eye.x") else RASTER)
         assert [right(d), right(d)] == [1, 1], item

@@ -8,13 +8,11 @@ def drive_a_slider_is_dragged(d):
     center = d.box(d.field("w.x")).get_center()
     d.ctx.mouse_teleport_to_pos((center.x, center.y))
     d.ctx.mouse_down(0)
-    seen = []
-    for step in range(1, 10):
-        d.ctx.mouse_teleport_to_pos((center.x + 6 * step, center.y))
+    for step in range(1, 5):
+        d.ctx.mouse_teleport_to_pos((center.x + 14 * step, center.y))
         image = d.renderers.ray_image
         assert image is not None  # never nothing
         assert d.renderers.ray_error is None
-        seen.append(image.request.camera.eye)
     d.ctx.mouse_up(0)
     assert d.state.camera.w[0] > d.start.camera.w[0] + 0.05
     after = d.agreeing_images()
@@ -57,30 +55,21 @@ def drive_a_singular_basis_is_told_and_survived(d):
     assert not d.state.keep_orthonormal
     d.settle()
     legal, before = d.state, d.images()
-    for axis in "xyz":
-        d.type(f"w.{axis}", "0")
+    for name in ("u", "v", "w"):
+        d.type(f"{name}.z", "0")
     draft = d.window.views["Camera"].draft
     assert draft.error is not None
     assert draft.error.field == "w"
-    assert "independent" in str(draft.error)
+    assert "lies in the plane" in str(draft.error)  # the longest
     assert d.state.camera.w[2] == legal.camera.w[2]  # only the legal steps were taken
     assert d.ctx.item_exists(BACK)
     d.settle()
+    assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     raster, ray = d.images()
     assert raster.std() > 5
     assert changed(raster, ray) < 0.002
     d.type("distance", "-1")
     assert d.state.camera.distance == legal.camera.distance
-    d.type("right", "-5")
-    assert d.window.views["Camera"].draft.error is not None
-    d.click(BACK)
-    d.type("w.x", "0.34567")
-    d.type("w.y", "0.24567")
-    for name in ("u", "v", "w"):
-        d.type(f"{name}.z", "0")
-    assert "lies in the plane" in str(d.window.views["Camera"].draft.error)  # the longest
-    d.frames(2)
-    assert d.ctx.get_window_by_ref("//Camera").scroll_max.y == 0
     d.click(BACK)
     assert d.window.views["Camera"].draft.error is None
     assert d.window.views["Camera"].draft.camera == d.state.camera

@@ -55,7 +55,7 @@ def drive_a_camera_is_copied_and_pasted(d):
     shown, size = d.renderers.camera(d.state), d.renderers.size
     d.menu("Edit/Copy camera as/OpenGL matrices")
     assert said(d).endswith("OpenGL matrices.")
-    d.menu("Camera/Canonical camera")
+    d.window.change(d.state.with_camera(AIMED))
     d.press(CTRL | Key.v)
     assert same_camera(d.renderers.camera(d.state), shown, size)
     assert "pasted from the clipboard: " in said(d)
@@ -133,7 +133,7 @@ def drive_k_r_and_t_are_read_switched_and_copied(d):
         names = {}
         exec(imgui.get_clipboard_text(), names)
         assert np.allclose(names["K"], shown.intrinsics(size, origin).K, atol=1e-9)
-        d.menu("Camera/Canonical camera")
+        d.window.change(d.state.with_camera(AIMED))
         d.press(CTRL | Key.v)
         assert same_camera(d.renderers.camera(d.state), shown, size)
     d.press(Key.p)

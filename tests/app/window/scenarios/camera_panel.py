@@ -9,12 +9,12 @@ from lucida.renderer.camera.lenses import Lens
 
 def open_section(d, name):
     d.ctx.item_open(f"//Camera/{name}")
-    d.frames(2)
+    d.frames()
 
 
 def close_sections(d):
     d.window.views["Camera"].open_sections(())
-    d.frames(2)
+    d.frames()
 
 
 def right_click_menu(d, field, entry):
@@ -77,10 +77,6 @@ def drive_near_and_far_are_switched_on_and_cut(d):
     after = d.agreeing_images()
     assert changed(before[0], after[0]) > 0.05
     assert changed(before[1], after[1]) > 0.05
-    d.type("far plane", "8")
-    assert "not above near" in str(d.window.views["Camera"].draft.error)
-    assert d.state.camera.far == 11
-    d.click("//Camera/Back to the camera shown")
     d.click("//Camera/near")
     d.click("//Camera/far")
     assert d.state.camera == d.start.camera
@@ -96,9 +92,8 @@ def drive_a_number_is_reset(d):
 
 def drive_presets_frame_the_scene_in_both_images(d):
     d.show_small()
-    for name in ("Left", "Cabinet"):
-        d.menu(f"Camera/Presets/{name}")
-        d.agreeing_images()
+    d.menu("Camera/Presets/Cabinet")
+    d.agreeing_images()
 
 
 def drive_a_lens_is_chosen_dragged_and_taken_off(d):
@@ -156,7 +151,6 @@ def drive_sections_stay_as_the_user_leaves_them(d):
     close_sections(d)
     assert view.sections == ()
     view.open_sections(left.sections["Camera"])  # as a session does
-    d.frames(10)
-    assert d.ctx.item_info("//Camera/##look.up.x").id_ != 0
+    d.until(lambda: d.ctx.item_exists("//Camera/##look.up.x"))
     assert view.sections == ("Look at",)
     close_sections(d)

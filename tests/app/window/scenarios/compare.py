@@ -58,9 +58,8 @@ def trace_again(d):
 def show(d, **options):
     """The layout with the view in its middle, in some state of its options; a difference without
     marks, if they do not say."""
-    d.layout(NAME)
     d.change(compare={"mode": "absolute", "causes": False} | options)
-    d.settle()
+    d.layout(NAME)
 
 
 def shown(d):
@@ -104,7 +103,6 @@ def drive_a_wrong_block_is_shown_counted_marked_and_stepped_through(d):
     assert (shown(d).max(axis=2) > 40).mean() < 0.01, "a false alarm"
     with tampered(d, brightened):
         check_false_colours(d)
-        show(d)
         check_causes(d)
         check_counts(d)
         check_steps(d)

@@ -50,13 +50,16 @@ def drive_the_window_is_resized(d):
 
 
 def drive_channels_are_shown_in_both(d):
-    for number, (name, channel) in enumerate(
-        (("Depth", "depth"), ("Normal", "normal"), ("Object", "id"), ("Colour", "color"))
+    for key, channel in (
+        (Key._2, "depth"),
+        (None, "normal"),
+        (Key._4, "id"),
+        (Key._1, "color"),
     ):
-        if number % 2:
-            choose(d, f"Channel/{name}")
+        if key is None:
+            choose(d, "Channel/Normal")
         else:
-            d.press(ALT | int((Key._2, Key._3, Key._4, Key._1)[number]))
+            d.press(ALT | int(key))
             d.settle()
         assert d.state.images.channel == channel
         raster, ray = d.images()
@@ -101,9 +104,8 @@ def drive_channels_follow_a_drag(d):
 def drive_nothing_is_drawn_twice(d):
     """At rest, no frame draws or uploads an image again."""
     both = d.renderers
-    choose(d, "Resolution/640 x 360")
+    d.change(images={"resolution": (640, 360), "channel": "depth"})
     choose(d, "Magnification/32x")
-    choose(d, "Channel/Depth")
     textures = both.textures
     shown = counting(Display, "show")
     rasterizer = textures.rasterizer.of(d.state.scene)

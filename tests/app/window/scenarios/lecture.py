@@ -163,19 +163,18 @@ def drive_undo_walks_back_over_steps(d):
     d.settle()
     entered = d.state
     d.window.change(with_options(entered, shadows=True))
-    ctrl = Key.mod_ctrl
-    d.press(ctrl | Key.z)  # what was changed in this step
+    d.press(Key.mod_ctrl | Key.z)  # what was changed in this step
     d.settle()
     assert (number_of(d), d.state) == (1, entered)
-    d.press(ctrl | Key.z)  # the way to it: text, views and state come back together
+    d.undo()  # the way to it: text, views and state come back together
     d.settle()
     assert (number_of(d), d.state) == (0, moved)
     assert shown(d) == {LECTURE, "Raster"}
-    d.press(ctrl | Key.z)
+    d.undo()
     d.settle()
     assert (number_of(d), d.state) == (0, state_of(first, moved))
     for _ in range(2):
-        d.press(ctrl | Key.y)
+        d.window.redo()
         d.settle()
     assert (number_of(d), d.state) == (1, entered)
     assert d.state == state_of(second, entered)

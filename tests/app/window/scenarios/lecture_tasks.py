@@ -33,7 +33,7 @@ def drive_exercises_say_what_is_right_and_wrong(d):
     d.click(item(d, "Check"))
     verdict = session.answers.verdict
     assert not verdict.right and "minus sign" in verdict.text
-    d.frames(2)
+    d.frames()
     outside = d.window.view(OutsideView)
     drawn = outside.extensions.lines
     assert any(item.name == "your d" for item in drawn)  # next to the correct one
@@ -42,8 +42,7 @@ def drive_exercises_say_what_is_right_and_wrong(d):
     assert session.step.title == verdict.read
     assert session.step.build == session.lecture.count(session.number) - 1  # with its whole text
     d.window.lecture.go(d.window, titles.index("Exercise: a pixel's ray"))
-    d.settle()
-    answer(d, "origin", "0, 0, 0")
+    d.settle()  # the origin is still there
     answer(d, "direction", "1/16, 5/16, -1")
     d.click(item(d, "Check"))
     assert session.answers.verdict.right
@@ -76,8 +75,8 @@ def drive_an_object_is_moved_until_it_hides_another(d):
     assert isinstance(task, HideExercise)
     lecture_of(d).give(lecture, BUILTIN, (number, 0))
     d.settle()
-    d.frames(12)  # the mark finds its image's size
-    d.settle()
+    d.until(lambda: not d.window.is_rearranging)
+    d.settle()  # the mark finds its image's size
     begun = d.state
     assert chosen(begun) == (task.item,)
 
