@@ -66,4 +66,3 @@ def drive_a_click_marks_a_pixel_in_all_views(d):
     d.click(_item("wrong"))
     d.settle()
     assert d.state.marked is None
-    ALONE.close(d)

@@ -87,7 +87,6 @@ def drive_nothing_is_cut_off(d):
             with_content(d), preferences={"font_scale": LARGEST}, images={"resolution": (120, 90)}
         )
     )
-    d.settle()
     with looking(d, cut) as look:
         d.resize(SIZE)
         for name in layouts(d):
